@@ -1,0 +1,215 @@
+//! What a block may know and ask of the engine while it computes.
+
+use std::sync::Arc;
+
+use crate::{
+    error::{Error, ErrorKind},
+    math::simd::SimdLevel,
+    value::{BufferPool, Gradient, Image, Value},
+};
+
+/// Where a row (or a part of one) lies.
+#[derive(Debug, Clone, Copy)]
+pub struct RowContext {
+    /// Column of the first pixel.
+    pub x: u32,
+    /// Row.
+    pub y: u32,
+    /// Width of the whole image in pixels, supersampling included.
+    pub width: u32,
+    /// Height of the whole image in pixels, supersampling included.
+    pub height: u32,
+}
+
+/// The files that a block's path parameters name, as the caller's file policy lets them be read.
+pub trait Files: Send + Sync {
+    /// The bytes of the file that a path parameter names.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Denied`], [`ErrorKind::Io`] or [`ErrorKind::Limit`].
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, Error>;
+
+    /// The picture of the file that a path parameter names, without alpha, values k/255 (or
+    /// k/65535 of a file with 16 bits, any finite numbers of one with floating-point pixels).
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), and [`ErrorKind::Parse`] if it is no picture.
+    fn read_image(&self, path: &str, pool: &Arc<BufferPool>) -> Result<Image, Error>;
+}
+
+/// Tells the caller how far a computation is, and whether to go on.
+pub trait Progress: Send + Sync {
+    /// Goes on, or fails with [`ErrorKind::Cancelled`]. Cheap: call it at least once per
+    /// millisecond of work.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`].
+    fn check(&self) -> Result<(), Error>;
+
+    /// Runs `task` for 0..`count` on the threads of the computation, in any order, and waits for
+    /// all of them. After an error no further task starts; of several errors, that of the lowest
+    /// task is returned.
+    ///
+    /// # Errors
+    /// What a task returns, or [`ErrorKind::Cancelled`].
+    fn parallel(
+        &self,
+        count: usize,
+        task: &(dyn Fn(usize) -> Result<(), Error> + Sync),
+    ) -> Result<(), Error>;
+
+    /// Tells that `fraction` (0..1) of the block's work is done. Only for blocks of shape Whole.
+    fn report(&self, fraction: f64);
+}
+
+/// What every block may know and ask.
+#[derive(Clone, Copy)]
+pub struct Context<'a> {
+    /// Width of the image to make in pixels, supersampling included.
+    pub width: u32,
+    /// Height of the image to make in pixels, supersampling included.
+    pub height: u32,
+    /// The seed of the block.
+    pub seed: u64,
+    /// The SIMD level to run kernels at.
+    pub simd: SimdLevel,
+    pub(crate) inputs: &'a [Option<Value>],
+    pub(crate) pool: &'a Arc<BufferPool>,
+    pub(crate) files: &'a dyn Files,
+    pub(crate) progress: &'a dyn Progress,
+}
+
+/// What a block of shape Point or Gather prepares itself from.
+pub type PrepareContext<'a> = Context<'a>;
+
+/// What a block of shape Whole computes from.
+pub type WholeContext<'a> = Context<'a>;
+
+impl<'a> Context<'a> {
+    /// The seed as the 32-bit number that the blocks of PT Designer draw from.
+    #[must_use]
+    pub fn seed32(&self) -> i32 {
+        crate::math::convert::low_bits(self.seed)
+    }
+
+    /// Whether input `port` is connected.
+    #[must_use]
+    pub fn is_connected(&self, port: usize) -> bool {
+        self.inputs.get(port).is_some_and(Option::is_some)
+    }
+
+    /// The whole image at input `port`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unconnected`] if there is none.
+    pub fn image(&self, port: usize) -> Result<&'a Image, Error> {
+        match self.inputs.get(port) {
+            Some(Some(Value::Image(image))) => Ok(image),
+            _ => Err(self.missing(port, "an image")),
+        }
+    }
+
+    /// The gradient at input `port`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unconnected`] if there is none.
+    pub fn gradient(&self, port: usize) -> Result<&'a Gradient, Error> {
+        match self.inputs.get(port) {
+            Some(Some(Value::Gradient(gradient))) => Ok(gradient),
+            _ => Err(self.missing(port, "a gradient")),
+        }
+    }
+
+    /// The text at input `port`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unconnected`] if there is none.
+    pub fn text(&self, port: usize) -> Result<&'a str, Error> {
+        match self.inputs.get(port) {
+            Some(Some(Value::Text(text))) => Ok(text),
+            _ => Err(self.missing(port, "a text")),
+        }
+    }
+
+    fn missing(&self, port: usize, what: &str) -> Error {
+        Error::new(ErrorKind::Unconnected, format!("needs {what} at input {port}"))
+    }
+
+    /// A new image of the size to make, with **unspecified contents**.
+    ///
+    /// # Errors
+    /// [`ErrorKind::NoMemory`].
+    pub fn new_image(&self, planes: usize) -> Result<Image, Error> {
+        Image::new(self.pool, self.width, self.height, planes)
+    }
+
+    /// A new image of any size, with **unspecified contents**. Announce its memory: see
+    /// [`WholeBlock::scratch_bytes`](super::WholeBlock::scratch_bytes).
+    ///
+    /// # Errors
+    /// [`ErrorKind::NoMemory`].
+    pub fn new_image_sized(&self, width: u32, height: u32, planes: usize) -> Result<Image, Error> {
+        Image::new(self.pool, width, height, planes)
+    }
+
+    /// The bytes of the file that a path parameter names.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Denied`], [`ErrorKind::Io`] or [`ErrorKind::Limit`].
+    pub fn read_file(&self, path: &str) -> Result<Arc<[u8]>, Error> {
+        self.files.read(path)
+    }
+
+    /// The picture of the file that a path parameter names: see [`Files::read_image`].
+    ///
+    /// # Errors
+    /// As [`read_file`](Self::read_file), and [`ErrorKind::Parse`] if it is no picture.
+    pub fn read_image(&self, path: &str) -> Result<Image, Error> {
+        self.files.read_image(path, self.pool)
+    }
+
+    /// Goes on, or fails with [`ErrorKind::Cancelled`]: see [`Progress::check`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`].
+    pub fn check(&self) -> Result<(), Error> {
+        self.progress.check()
+    }
+
+    /// Tells that `fraction` (0..1) of the work of a block of shape Whole is done.
+    pub fn report(&self, fraction: f64) {
+        self.progress.report(fraction);
+    }
+
+    /// Runs `task` for 0..`count` on all threads: see [`Progress::parallel`].
+    ///
+    /// # Errors
+    /// What a task returns, or [`ErrorKind::Cancelled`].
+    pub fn parallel(
+        &self,
+        count: usize,
+        task: impl Fn(usize) -> Result<(), Error> + Sync,
+    ) -> Result<(), Error> {
+        self.progress.parallel(count, &task)
+    }
+
+    /// Splits `data` into pieces of `piece` values (the last may be shorter) and runs `task` for
+    /// each on all threads, with the piece's number.
+    ///
+    /// # Errors
+    /// What a task returns, or [`ErrorKind::Cancelled`].
+    pub fn parallel_pieces<T: Send>(
+        &self,
+        data: &mut [T],
+        piece: usize,
+        task: impl Fn(usize, &mut [T]) -> Result<(), Error> + Sync,
+    ) -> Result<(), Error> {
+        let pieces: Vec<_> =
+            data.chunks_mut(piece.max(1)).map(|piece| std::sync::Mutex::new(piece)).collect();
+        self.parallel(pieces.len(), |i| {
+            // Each number is run once, so the lock is free; it only proves that to the compiler.
+            let mut piece = pieces[i].lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            task(i, &mut piece)
+        })
+    }
+}

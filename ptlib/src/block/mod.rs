@@ -1,0 +1,27 @@
+//! Blocks: what the registry, the files, the interfaces and the engine know of them.
+//!
+//! A block is one file in `blocks/<family>/`: an essay, its parameters, a static [`BlockSpec`] and
+//! an implementation of one of three shapes:
+//!
+//! - [`PointBlock`]: a row of output from the same row of each input and the position. Any part of
+//!   any row, in any order.
+//! - [`GatherBlock`]: a row of output from whole inputs, read anywhere with wrap-around.
+//! - [`WholeBlock`]: one call makes the whole output.
+//!
+//! Start reading at [`BlockSpec`], then [`prelude`], which is all that a block file sees.
+
+mod context;
+mod registry;
+mod row;
+mod shapes;
+mod spec;
+
+pub mod prelude;
+
+pub use context::{Context, Files, PrepareContext, Progress, RowContext, WholeContext};
+pub(crate) use registry::nearest;
+pub use registry::{Family, Registry};
+pub use row::{InputRows, OutputRow, PortRow};
+pub use shapes::{GatherBlock, PointBlock, RowKernel, WholeBlock};
+pub(crate) use shapes::{Implementation, RowFactory, WholeFactory};
+pub use spec::{About, Access, BlockSpec, InputPort, OutputPort, Planes, Role, Shape, Tiling, input, output};

@@ -1,0 +1,15 @@
+//! All that a block file sees: `use crate::block::prelude::*;`.
+
+pub use std::sync::Arc;
+
+pub use super::{
+    About, BlockSpec, Context, GatherBlock, InputRows, OutputRow, Planes, PointBlock,
+    PrepareContext, Role, RowContext, Tiling, WholeBlock, WholeContext, input, output,
+};
+pub use crate::{
+    choice,
+    error::{Error, ErrorKind},
+    math::{convert, elementary, elias, levels, levels::Levels},
+    params,
+    value::{Gradient, GradientStop, Image, Kind, Plane, Value},
+};

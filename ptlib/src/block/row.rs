@@ -1,0 +1,130 @@
+//! Rows: what a block of shape Point or Gather reads and writes.
+
+use crate::value::MAX_PLANES;
+
+/// A part of a row of one input image: one slice a plane, none if the input is not connected.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PortRow<'a> {
+    planes: [&'a [f32]; MAX_PLANES],
+    count: usize,
+}
+
+impl<'a> PortRow<'a> {
+    /// A row of as many planes as `planes` gives.
+    #[inline]
+    pub fn new(planes: impl IntoIterator<Item = &'a [f32]>) -> Self {
+        let mut row = Self::default();
+        for plane in planes {
+            row.planes[row.count] = plane;
+            row.count += 1;
+        }
+        row
+    }
+}
+
+/// The rows of all inputs that the block reads at the same position.
+#[derive(Debug, Clone, Copy)]
+pub struct InputRows<'a> {
+    ports: &'a [PortRow<'a>],
+}
+
+impl<'a> InputRows<'a> {
+    /// The rows of all ports, in their order.
+    #[inline]
+    #[must_use]
+    pub fn new(ports: &'a [PortRow<'a>]) -> Self {
+        Self { ports }
+    }
+
+    /// Whether input `port` is connected.
+    #[inline]
+    #[must_use]
+    pub fn is_connected(&self, port: usize) -> bool {
+        self.ports.get(port).is_some_and(|row| row.count > 0)
+    }
+
+    /// The number of planes of input `port`; 0 if it is not connected.
+    #[inline]
+    #[must_use]
+    pub fn planes(&self, port: usize) -> usize {
+        self.ports.get(port).map_or(0, |row| row.count)
+    }
+
+    /// Channel `channel` of input `port`, which is connected. A grey image has its one plane as
+    /// red, green and blue.
+    #[inline]
+    #[must_use]
+    pub fn channel(&self, port: usize, channel: usize) -> &'a [f32] {
+        let row = &self.ports[port];
+        row.planes[if row.count == 1 { 0 } else { channel }]
+    }
+
+    /// Red, green and blue of input `port`, which is connected.
+    #[inline]
+    #[must_use]
+    pub fn rgb(&self, port: usize) -> [&'a [f32]; 3] {
+        std::array::from_fn(|channel| self.channel(port, channel))
+    }
+}
+
+/// The part of a row to write: one slice a plane, all outputs one after the other.
+#[derive(Debug)]
+pub struct OutputRow<'a> {
+    planes: [&'a mut [f32]; MAX_PLANES],
+    count: usize,
+}
+
+impl<'a> OutputRow<'a> {
+    /// A row of as many planes as `planes` gives.
+    #[inline]
+    pub fn new(planes: impl IntoIterator<Item = &'a mut [f32]>) -> Self {
+        let mut row = Self { planes: Default::default(), count: 0 };
+        for plane in planes {
+            row.planes[row.count] = plane;
+            row.count += 1;
+        }
+        row
+    }
+
+    /// The number of planes.
+    #[inline]
+    #[must_use]
+    pub fn planes(&self) -> usize {
+        self.count
+    }
+
+    /// Plane `plane`.
+    #[inline]
+    pub fn plane(&mut self, plane: usize) -> &mut [f32] {
+        self.planes[plane]
+    }
+
+    /// The one plane of a grey output.
+    #[inline]
+    pub fn grey(&mut self) -> &mut [f32] {
+        self.planes[0]
+    }
+
+    /// The three planes of a colour output.
+    #[inline]
+    pub fn rgb(&mut self) -> [&mut [f32]; 3] {
+        let [red, green, blue, _] = &mut self.planes;
+        [red, green, blue]
+    }
+
+    /// All planes, in order.
+    #[inline]
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut [f32]> {
+        self.planes[..self.count].iter_mut().map(|plane| &mut **plane)
+    }
+
+    /// Writes each plane from the same channel of input `port`, value by value.
+    #[inline(always)]
+    pub fn map(&mut self, inputs: &InputRows<'_>, port: usize, f: impl Fn(f32) -> f32) {
+        for (channel, out) in self.iter_mut().enumerate() {
+            for (out, value) in out.iter_mut().zip(inputs.channel(port, channel)) {
+                *out = f(*value);
+            }
+        }
+    }
+}

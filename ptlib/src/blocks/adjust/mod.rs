@@ -1,0 +1,3 @@
+//! Blocks that change values pixel by pixel.
+
+crate::family!("adjust": invert);

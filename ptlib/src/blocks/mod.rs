@@ -1,0 +1,9 @@
+//! The built-in blocks, by family: one file a block.
+
+mod adjust;
+mod results;
+
+use crate::block::Family;
+
+/// Every family of built-in blocks.
+pub static FAMILIES: &[&Family] = &[&adjust::FAMILY, &results::FAMILY];

@@ -1,0 +1,3 @@
+//! Blocks that end a graph: its results.
+
+crate::family!("results": end);

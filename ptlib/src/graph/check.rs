@@ -1,0 +1,100 @@
+//! What is wrong with a graph.
+
+use super::{BlockId, Graph, edit::name};
+use crate::{
+    block::BlockSpec,
+    error::{Error, ErrorKind},
+};
+
+impl Graph {
+    /// Whether `block` can be computed, as far as the graph alone tells: every type that it needs
+    /// is known, every required input is connected, every connection is of the right kind.
+    ///
+    /// # Errors
+    /// All faults in one error.
+    pub fn validate(&self, block: BlockId) -> Result<(), Error> {
+        self.block(block)?;
+        let faults = self
+            .blocks()
+            .filter(|(id, _)| self.depends_on(block, *id))
+            .flat_map(|(id, _)| self.faults_of(id))
+            .collect();
+        Error::from_faults(faults).map_or(Ok(()), Err)
+    }
+
+    /// What is wrong with a block and its inputs.
+    pub(crate) fn faults_of(&self, id: BlockId) -> Vec<Error> {
+        let spec = match self.known(id) {
+            Ok(spec) => spec,
+            Err(error) => return vec![error],
+        };
+        let Ok(block) = self.block(id) else { return vec![] };
+        let mut faults = Vec::new();
+        for (number, (port, source)) in
+            (0..).zip(spec.about.inputs.iter().zip(&block.inputs))
+        {
+            match source {
+                Some(source) => {
+                    faults.extend(self.check_kinds(source.block, source.output, id, number).err());
+                }
+                None if !port.is_optional => {
+                    let message =
+                        format!("input {number} (\"{}\") is not connected", port.id);
+                    faults.push(self.at(id, Error::new(ErrorKind::Unconnected, message)));
+                }
+                None => {}
+            }
+        }
+        faults
+    }
+
+    /// The type of a block.
+    ///
+    /// # Errors
+    /// [`ErrorKind::StaleHandle`]; [`ErrorKind::NotFound`] if its type is unknown.
+    pub fn known(&self, id: BlockId) -> Result<&'static BlockSpec, Error> {
+        let block = self.block(id)?;
+        match block.spec {
+            Some(spec) => Ok(spec),
+            None => {
+                let error = self.registry.get(&block.type_id).err().unwrap_or_else(|| {
+                    Error::new(ErrorKind::NotFound, "its type came after the graph was read")
+                        .with_hint("read the graph again")
+                });
+                Err(self.at(id, error))
+            }
+        }
+    }
+
+    /// Whether an output exists, an input exists, and they are of one kind.
+    pub(super) fn check_kinds(
+        &self,
+        source: BlockId,
+        output: u32,
+        target: BlockId,
+        input: u32,
+    ) -> Result<(), Error> {
+        let (from, to) = (self.known(source)?, self.known(target)?);
+        let Some(gives) = from.about.outputs.get(output as usize) else {
+            let count = from.about.outputs.len();
+            let message = format!("has no output {output}, but {count} from 0 on");
+            return Err(self.at(source, Error::new(ErrorKind::NotFound, message)));
+        };
+        let Some(takes) = to.about.inputs.get(input as usize) else {
+            let count = to.about.inputs.len();
+            let message = format!("has no input {input}, but {count} from 0 on");
+            return Err(self.at(target, Error::new(ErrorKind::NotFound, message)));
+        };
+        if gives.kind != takes.kind {
+            let message = format!(
+                "input {input} (\"{}\") takes a value of kind {}, but {} gives one of kind {}",
+                takes.id,
+                takes.kind.name(),
+                name(self.block(source)?),
+                gives.kind.name()
+            );
+            return Err(self.at(target, Error::new(ErrorKind::TypeMismatch, message)));
+        }
+        Ok(())
+    }
+}

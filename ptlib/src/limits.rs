@@ -1,0 +1,44 @@
+//! How much a graph file may ask for. Files are untrusted: each limit stops an attack, and the
+//! caller may raise it.
+
+/// The limits of an engine. [`Limits::default`] suits programs that open files of strangers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes of a graph file. Real ones have 1 to 5 KB.
+    pub file_bytes: u64,
+    /// Blocks of a graph: bounds the time of everything that walks it.
+    pub blocks: u32,
+    /// Connections of a graph.
+    pub connections: u32,
+    /// Bytes of one text parameter.
+    pub text_bytes: u32,
+    /// Depth of nested elements in a graph file: ours need 3.
+    pub nesting: u32,
+    /// Faults that are collected from one file before reading stops.
+    pub faults: u32,
+    /// Width and height of an image in pixels, supersampling included.
+    pub image_side: u32,
+    /// Bytes that one computation may take at its peak. A 50-byte file can ask for a terabyte.
+    pub memory_bytes: u64,
+    /// Bytes of a file that a block reads (a picture, a grammar).
+    pub read_bytes: u64,
+    /// Symbols of the string of an L-system: it grows exponentially.
+    pub text_symbols: u32,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            file_bytes: 16 << 20,
+            blocks: 10_000,
+            connections: 50_000,
+            text_bytes: 1 << 20,
+            nesting: 16,
+            faults: 100,
+            image_side: 65_536,
+            memory_bytes: 4 << 30,
+            read_bytes: 256 << 20,
+            text_symbols: 16 << 20,
+        }
+    }
+}

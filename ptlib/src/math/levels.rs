@@ -1,0 +1,93 @@
+//! Precision: what a block's stored values are.
+//!
+//! PT Designer computes in 8-bit levels and truncates whenever it stores one (specification, "How
+//! ptlib uses this specification"). New graphs compute on real numbers. Both go through one
+//! implementation of each block: a block is written over [`Levels`], and the engine picks
+//! [`EightBit`] or [`Continuous`].
+
+/// What a graph computes in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Precision {
+    /// Levels k/255, truncated at each store: the pictures of PT Designer.
+    EightBit,
+    /// Real numbers 0..1, never truncated.
+    #[default]
+    Float,
+}
+
+/// Arithmetic of one [`Precision`], chosen at compile time so that rows stay free of branches.
+pub trait Levels: Copy + Send + Sync + 'static {
+    /// Whether values are levels k/255.
+    const EIGHT_BIT: bool;
+
+    /// A value 0..1 as it is stored: truncated to a level, or unchanged.
+    fn store(value: f32) -> f32;
+}
+
+/// Levels k/255.
+#[derive(Debug, Clone, Copy)]
+pub struct EightBit;
+
+/// Real numbers.
+#[derive(Debug, Clone, Copy)]
+pub struct Continuous;
+
+/// Added before truncating to a level, in levels. Single precision misses an exact level by up to
+/// 2⁻¹⁵ of one; without this, a chain of identities would lose a level at each step.
+const TRUNCATION_SLACK: f32 = 1.0 / 1024.0;
+
+impl Levels for EightBit {
+    const EIGHT_BIT: bool = true;
+
+    #[inline(always)]
+    fn store(value: f32) -> f32 {
+        from_level(to_level(value))
+    }
+}
+
+impl Levels for Continuous {
+    const EIGHT_BIT: bool = false;
+
+    #[inline(always)]
+    fn store(value: f32) -> f32 {
+        value
+    }
+}
+
+/// The level of `value`, truncated toward zero: 0.5 is 127. Values outside 0..1 keep their sign and
+/// size, as intermediate results need it.
+#[inline(always)]
+#[must_use]
+pub fn to_level(value: f32) -> f32 {
+    let scaled = value * 255.0;
+    (scaled + TRUNCATION_SLACK.copysign(scaled)).trunc()
+}
+
+/// The value of level `level`; 255 is 1.
+#[inline(always)]
+#[must_use]
+pub fn from_level(level: f32) -> f32 {
+    level / 255.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_level_survives_storing() {
+        for level in 0..=255_u8 {
+            let value = from_level(f32::from(level));
+            assert_eq!(EightBit::store(value), value, "level {level}");
+            assert_eq!(to_level(value), f32::from(level));
+        }
+    }
+
+    #[test]
+    fn storing_truncates() {
+        assert_eq!(to_level(0.5), 127.0);
+        assert_eq!(to_level(127.99 / 255.0), 127.0);
+        assert_eq!(to_level(-1.5 / 255.0), -1.0);
+        assert_eq!(Continuous::store(0.5), 0.5);
+    }
+}

@@ -1,0 +1,17 @@
+//! What flows on wires: images (planes of `f32`), gradients, texts.
+//!
+//! Values are immutable once made and shared by reference count; cloning one is cheap. More kinds
+//! (points, meshes, strands, volumes) join [`Kind`] and [`Value`] here, and nothing elsewhere may
+//! assume that a wire is an image.
+
+mod gradient;
+mod image;
+mod kind;
+mod pixels;
+mod plane;
+
+pub use gradient::{Gradient, GradientStop};
+pub use image::{Image, MAX_PLANES};
+pub use kind::{Kind, Value};
+pub use pixels::{Format, Pixels};
+pub use plane::{BufferPool, Plane};

@@ -1,0 +1,139 @@
+//! One channel of an image, and the pool that recycles the memory of planes.
+
+use std::{
+    fmt,
+    sync::{Arc, Mutex, PoisonError, Weak},
+};
+
+use crate::error::{Error, ErrorKind};
+
+/// Planes start at multiples of this many bytes: a cache line, and the widest SIMD register.
+const ALIGNMENT: usize = 64;
+
+/// Extra elements of an allocation, so that an aligned start is always inside.
+const PADDING: usize = ALIGNMENT / size_of::<f32>() - 1;
+
+/// W × H numbers, row by row, 64-byte aligned. Its memory returns to the pool it came from.
+pub struct Plane {
+    buffer: Box<[f32]>,
+    start: usize,
+    len: usize,
+    pool: Weak<BufferPool>,
+}
+
+impl Plane {
+    /// All numbers, row by row from the top.
+    #[inline]
+    #[must_use]
+    pub fn data(&self) -> &[f32] {
+        &self.buffer[self.start..self.start + self.len]
+    }
+
+    /// All numbers, to write.
+    #[inline]
+    pub fn data_mut(&mut self) -> &mut [f32] {
+        &mut self.buffer[self.start..self.start + self.len]
+    }
+}
+
+impl Drop for Plane {
+    fn drop(&mut self) {
+        if let Some(pool) = self.pool.upgrade() {
+            pool.give_back(std::mem::take(&mut self.buffer));
+        }
+    }
+}
+
+impl fmt::Debug for Plane {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Plane({} values)", self.len)
+    }
+}
+
+/// Memory of planes that are no longer used, kept for the next ones: fresh memory costs a page
+/// fault per 4 KiB, more than most blocks cost.
+#[derive(Debug, Default)]
+pub struct BufferPool {
+    free: Mutex<Vec<Box<[f32]>>>,
+}
+
+impl BufferPool {
+    /// An empty pool.
+    #[must_use]
+    pub fn new() -> Arc<Self> {
+        Arc::default()
+    }
+
+    /// A plane of `len` numbers. **Its contents are unspecified**: whoever takes it writes all of
+    /// it. (Debug builds fill it with NaN, so that the laws notice when one does not.)
+    ///
+    /// # Errors
+    /// [`ErrorKind::NoMemory`] if the system has no memory for it.
+    pub fn plane(self: &Arc<Self>, len: usize) -> Result<Plane, Error> {
+        let wanted = len + PADDING;
+        let recycled = {
+            let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
+            free.iter().position(|buffer| buffer.len() == wanted).map(|i| free.swap_remove(i))
+        };
+        let buffer = match recycled {
+            Some(buffer) => buffer,
+            None => bytemuck::try_zeroed_slice_box(wanted).map_err(|()| {
+                let bytes = wanted as u64 * size_of::<f32>() as u64;
+                Error::new(ErrorKind::NoMemory, format!("the system has no {bytes} bytes left"))
+            })?,
+        };
+        let start = buffer.as_ptr().align_offset(ALIGNMENT);
+        let mut plane = Plane { buffer, start, len, pool: Arc::downgrade(self) };
+        if cfg!(debug_assertions) {
+            plane.data_mut().fill(f32::NAN);
+        }
+        Ok(plane)
+    }
+
+    /// Frees memory until at most `bytes` are kept.
+    pub fn trim(&self, bytes: u64) {
+        let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = 0;
+        free.retain(|buffer| {
+            kept += size_of_val(&**buffer) as u64;
+            kept <= bytes
+        });
+    }
+
+    fn give_back(&self, buffer: Box<[f32]>) {
+        self.free.lock().unwrap_or_else(PoisonError::into_inner).push(buffer);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn planes_are_aligned_and_recycled() {
+        let pool = BufferPool::new();
+        let mut plane = pool.plane(1000).unwrap();
+        plane.data_mut().fill(1.0);
+        assert_eq!(plane.data().len(), 1000);
+        assert_eq!(plane.data().as_ptr() as usize % ALIGNMENT, 0);
+        let address = plane.data().as_ptr();
+        drop(plane);
+        assert_eq!(pool.plane(1000).unwrap().data().as_ptr(), address);
+        pool.trim(0);
+        assert!(pool.free.lock().unwrap().is_empty());
+    }
+
+    #[test]
+    fn planes_outlive_their_pool() {
+        let pool = BufferPool::new();
+        let plane = pool.plane(10).unwrap();
+        drop(pool);
+        assert_eq!(plane.data().len(), 10);
+    }
+
+    #[test]
+    fn no_memory_is_an_error() {
+        let error = BufferPool::new().plane(usize::MAX / 8).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::NoMemory);
+    }
+}
