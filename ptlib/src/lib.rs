@@ -21,8 +21,8 @@ pub mod value;
 
 pub use error::{Error, ErrorKind};
 pub use graph::{BlockId, Graph};
+pub use io::Reading;
 pub use limits::Limits;
 pub use math::levels::Precision;
-pub use io::Reading;
-pub use run::{Cancel, ComputeOptions, Engine, EngineOptions};
+pub use run::{Cancel, ComputeOptions, Engine, EngineOptions, PixelsMut};
 pub use value::{Format, Image, Pixels};

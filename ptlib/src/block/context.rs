@@ -204,8 +204,7 @@ impl<'a> Context<'a> {
         piece: usize,
         task: impl Fn(usize, &mut [T]) -> Result<(), Error> + Sync,
     ) -> Result<(), Error> {
-        let pieces: Vec<_> =
-            data.chunks_mut(piece.max(1)).map(|piece| std::sync::Mutex::new(piece)).collect();
+        let pieces: Vec<_> = data.chunks_mut(piece.max(1)).map(std::sync::Mutex::new).collect();
         self.parallel(pieces.len(), |i| {
             // Each number is run once, so the lock is free; it only proves that to the compiler.
             let mut piece = pieces[i].lock().unwrap_or_else(std::sync::PoisonError::into_inner);

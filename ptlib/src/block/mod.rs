@@ -24,4 +24,6 @@ pub use registry::{Family, Registry};
 pub use row::{InputRows, OutputRow, PortRow};
 pub use shapes::{GatherBlock, PointBlock, RowKernel, WholeBlock};
 pub(crate) use shapes::{Implementation, RowFactory, WholeFactory};
-pub use spec::{About, Access, BlockSpec, InputPort, OutputPort, Planes, Role, Shape, Tiling, input, output};
+pub use spec::{
+    About, Access, BlockSpec, InputPort, OutputPort, Planes, Role, Shape, Tiling, input, output,
+};

@@ -30,16 +30,13 @@ impl Graph {
         };
         let Ok(block) = self.block(id) else { return vec![] };
         let mut faults = Vec::new();
-        for (number, (port, source)) in
-            (0..).zip(spec.about.inputs.iter().zip(&block.inputs))
-        {
+        for (number, (port, source)) in (0..).zip(spec.about.inputs.iter().zip(&block.inputs)) {
             match source {
                 Some(source) => {
                     faults.extend(self.check_kinds(source.block, source.output, id, number).err());
                 }
                 None if !port.is_optional => {
-                    let message =
-                        format!("input {number} (\"{}\") is not connected", port.id);
+                    let message = format!("input {number} (\"{}\") is not connected", port.id);
                     faults.push(self.at(id, Error::new(ErrorKind::Unconnected, message)));
                 }
                 None => {}

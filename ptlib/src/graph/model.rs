@@ -277,11 +277,6 @@ impl Graph {
         })
     }
 
-    /// The seed of a block: its own or the graph's.
-    pub(crate) fn seed_of(&self, block: &Block) -> u64 {
-        block.seed.unwrap_or(self.data.settings.seed)
-    }
-
     /// `error`, with the place of the block added.
     pub(crate) fn at(&self, id: BlockId, error: Error) -> Error {
         match self.block(id) {

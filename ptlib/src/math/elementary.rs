@@ -5,7 +5,7 @@
 //! `f64` functions are those of the `libm` crate (a port of musl's), for numbers that are computed
 //! once per block.
 
-use std::f32::consts::{LN_2, LOG2_E, PI};
+use std::f32::consts::{FRAC_PI_2, LN_2, LOG2_E, PI};
 
 /// Sine of `turns` full turns: `sin(2π · turns)`. Any finite number of turns; the error is below
 /// 4·10⁻⁷ for |turns| < 2¹⁶.
@@ -115,11 +115,11 @@ pub fn acos(x: f32) -> f32 {
     let a = x.abs();
     let p = 6.670_09e-3 + a * -1.262_491_1e-3;
     let p = -1.708_812_6e-2 + a * p;
-    let p = 3.089_188_1e-2 + a * p;
+    let p = 3.089_188e-2 + a * p;
     let p = -5.017_43e-2 + a * p;
     let p = 8.897_899e-2 + a * p;
     let p = -2.145_988e-1 + a * p;
-    let p = 1.570_796_3 + a * p;
+    let p = FRAC_PI_2 + a * p;
     let result = (1.0 - a).sqrt() * p;
     if x < 0.0 { PI - result } else { result }
 }

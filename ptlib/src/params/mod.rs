@@ -9,5 +9,6 @@ mod declare;
 mod spec;
 
 pub use spec::{
-    ChoiceItem, DefaultValue, FileUse, ParamKind, ParamSet, ParamSpec, ParamType, ParamValue, Range, check_specs,
+    ChoiceItem, DefaultValue, FileUse, ParamKind, ParamSet, ParamSpec, ParamType, ParamValue,
+    Range, check_specs,
 };

@@ -6,15 +6,26 @@ use std::{
     time::Duration,
 };
 
-use super::Cancel;
+use super::{
+    Cancel,
+    cache::Cache,
+    execute::{Execution, Means},
+    files::GraphFiles,
+    monitor::Monitor,
+    nodes::{self, Node, Purpose},
+    plan::{Handover, Plan, Sizes, Wanted},
+    sink::Sink,
+    threads::Threads,
+};
 use crate::{
-    block::Registry,
-    error::Error,
+    block::{Files, Registry},
+    error::{Error, ErrorKind},
     graph::{BlockId, Graph},
-    io::{self, Reading},
+    io::{self, FileAccess, Reading},
     limits::Limits,
     math::{levels::Precision, simd::SimdLevel},
-    value::{Format, Image, Value},
+    params::{FileUse, ParamKind, ParamValue},
+    value::{BufferPool, Format, Image, Kind, Value},
 };
 
 /// How an [`Engine`] is made.
@@ -65,11 +76,7 @@ impl ProgressReport {
     #[must_use]
     pub fn fraction(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "for display")]
-        if self.units_total == 0 {
-            1.0
-        } else {
-            self.units_done as f64 / self.units_total as f64
-        }
+        if self.units_total == 0 { 1.0 } else { self.units_done as f64 / self.units_total as f64 }
     }
 }
 
@@ -98,6 +105,11 @@ pub struct ComputeOptions<'a> {
     pub progress: Option<&'a mut ProgressFn<'a>>,
     /// The least time between two calls of `progress`.
     pub progress_interval: Duration,
+    /// Takes the faults that white images stand for, with `keep_going`.
+    pub failures: Option<&'a mut Vec<Error>>,
+    /// Rows of one task, for tests and measurements: results do not depend on it. 0 lets the
+    /// engine choose.
+    pub strip_rows: u32,
 }
 
 impl Default for ComputeOptions<'_> {
@@ -113,6 +125,8 @@ impl Default for ComputeOptions<'_> {
             cancel: None,
             progress: None,
             progress_interval: Duration::from_millis(50),
+            failures: None,
+            strip_rows: 0,
         }
     }
 }
@@ -128,6 +142,38 @@ pub struct OutputShape {
     pub planes: usize,
 }
 
+/// Pixels of the caller that a computation writes into.
+pub struct PixelsMut<'a> {
+    /// The format of a pixel.
+    pub format: Format,
+    /// The pixels, rows from the top.
+    pub pixels: &'a mut [u8],
+    /// Bytes from the start of a row to the start of the next one.
+    pub stride: usize,
+}
+
+impl PixelsMut<'_> {
+    /// Whether an image of that size fits.
+    fn check(&self, width: u32, height: u32) -> Result<(), Error> {
+        let row = width as usize * self.format.bytes_per_pixel();
+        if self.stride < row {
+            let message = format!("rows of {} bytes are given, {row} needed", self.stride);
+            return Err(Error::new(ErrorKind::InvalidArgument, message));
+        }
+        let needed =
+            (height as usize - 1).checked_mul(self.stride).and_then(|bytes| bytes.checked_add(row));
+        if needed.is_none_or(|needed| self.pixels.len() < needed) {
+            let message = format!(
+                "a buffer of {} bytes is given, {} needed for {width} × {height}",
+                self.pixels.len(),
+                needed.unwrap_or(usize::MAX)
+            );
+            return Err(Error::new(ErrorKind::BufferTooSmall, message));
+        }
+        Ok(())
+    }
+}
+
 /// What computations share. Clones are the same engine; any thread may use it.
 #[derive(Debug, Clone)]
 pub struct Engine(Arc<Inner>);
@@ -136,13 +182,22 @@ pub struct Engine(Arc<Inner>);
 struct Inner {
     registry: Arc<Registry>,
     options: EngineOptions,
+    threads: Threads,
+    pool: Arc<BufferPool>,
+    cache: Cache,
 }
 
 impl Engine {
     /// An engine with the built-in block types.
     #[must_use]
     pub fn new(options: EngineOptions) -> Self {
-        Self(Arc::new(Inner { registry: Registry::builtin(), options }))
+        Self(Arc::new(Inner {
+            registry: Registry::builtin(),
+            threads: Threads::new(options.threads),
+            pool: BufferPool::new(),
+            cache: Cache::new(options.cache_bytes),
+            options,
+        }))
     }
 
     /// The block types that its graphs may use.
@@ -182,7 +237,7 @@ impl Engine {
         Ok(reading)
     }
 
-    /// Computes one output of one block as an image.
+    /// Computes one output of one block as an image of planes.
     ///
     /// # Errors
     /// What is wrong with the graph, what a block says,
@@ -190,12 +245,18 @@ impl Engine {
     /// too much memory, [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
     pub fn compute(
         &self,
-        _graph: &Graph,
-        _block: BlockId,
-        _output: u32,
-        _options: ComputeOptions<'_>,
+        graph: &Graph,
+        block: BlockId,
+        output: u32,
+        options: ComputeOptions<'_>,
     ) -> Result<Image, Error> {
-        Err(Error::new(crate::ErrorKind::Unsupported, "not yet"))
+        match self.compute_value(graph, block, output, options)? {
+            Value::Image(image) => Ok(image),
+            other => {
+                let message = format!("output {output} gives a {}", other.kind().name());
+                Err(graph.at(block, Error::new(ErrorKind::TypeMismatch, message)))
+            }
+        }
     }
 
     /// Computes one output of one block as a value of any kind.
@@ -204,44 +265,61 @@ impl Engine {
     /// As [`compute`](Self::compute).
     pub fn compute_value(
         &self,
-        _graph: &Graph,
-        _block: BlockId,
-        _output: u32,
-        _options: ComputeOptions<'_>,
+        graph: &Graph,
+        block: BlockId,
+        output: u32,
+        options: ComputeOptions<'_>,
     ) -> Result<Value, Error> {
-        Err(Error::new(crate::ErrorKind::Unsupported, "not yet"))
+        let mut values = self.0.compute(graph, &[(block, output)], options, None)?;
+        values.pop().ok_or_else(|| Error::new(ErrorKind::Internal, "the plan gave no value"))
     }
 
-    /// Computes one output of one block into pixels of the caller: rows of `stride` bytes.
+    /// Computes one output of one block into pixels of the caller.
     ///
     /// # Errors
     /// As [`compute`](Self::compute), and
     /// [`ErrorKind::BufferTooSmall`](crate::ErrorKind::BufferTooSmall).
-    #[expect(clippy::too_many_arguments, reason = "what, how, and the buffer")]
     pub fn compute_into(
         &self,
-        _graph: &Graph,
-        _block: BlockId,
-        _output: u32,
-        _options: ComputeOptions<'_>,
-        _format: Format,
-        _pixels: &mut [u8],
-        _stride: usize,
+        graph: &Graph,
+        block: BlockId,
+        output: u32,
+        options: ComputeOptions<'_>,
+        target: PixelsMut<'_>,
     ) -> Result<(), Error> {
-        Err(Error::new(crate::ErrorKind::Unsupported, "not yet"))
+        self.0.compute(graph, &[(block, output)], options, Some(target)).map(drop)
     }
 
-    /// Computes all results of a graph (its `end` blocks), and lets its `save file` blocks write
-    /// where the engine's options allow it.
+    /// Computes all results of a graph (its `end` blocks, in file order), and lets its `save file`
+    /// blocks write where the engine's options allow it.
     ///
     /// # Errors
     /// As [`compute`](Self::compute), and [`ErrorKind::Denied`](crate::ErrorKind::Denied).
     pub fn compute_all(
         &self,
-        _graph: &Graph,
-        _options: ComputeOptions<'_>,
+        graph: &Graph,
+        options: ComputeOptions<'_>,
     ) -> Result<Vec<(BlockId, Image)>, Error> {
-        Err(Error::new(crate::ErrorKind::Unsupported, "not yet"))
+        let writers: Vec<(BlockId, PathBuf)> = graph
+            .writers()
+            .map(|id| self.0.target_of(graph, id).map(|path| (id, path)))
+            .collect::<Result<_, _>>()?;
+        let results: Vec<BlockId> = graph.results().collect();
+        let wanted: Vec<(BlockId, u32)> =
+            results.iter().chain(writers.iter().map(|(id, _)| id)).map(|id| (*id, 0)).collect();
+        if wanted.is_empty() {
+            return graph.main_result().map(|_| Vec::new());
+        }
+        let values = self.0.compute(graph, &wanted, options, None)?;
+        let mut images = values.into_iter().filter_map(|value| match value {
+            Value::Image(image) => Some(image),
+            _ => None,
+        });
+        let results: Vec<_> = results.into_iter().zip(images.by_ref()).collect();
+        for ((id, path), image) in writers.iter().zip(images) {
+            io::save_image(&image, path, io::BitDepth::Eight).map_err(|e| graph.at(*id, e))?;
+        }
+        Ok(results)
     }
 
     /// The size and the number of planes that [`compute`](Self::compute) would give, without
@@ -251,11 +329,223 @@ impl Engine {
     /// What is wrong with the graph.
     pub fn output_shape(
         &self,
-        _graph: &Graph,
-        _block: BlockId,
-        _output: u32,
-        _options: &ComputeOptions<'_>,
+        graph: &Graph,
+        block: BlockId,
+        output: u32,
+        options: &ComputeOptions<'_>,
     ) -> Result<OutputShape, Error> {
-        Err(Error::new(crate::ErrorKind::Unsupported, "not yet"))
+        let settings = self.0.settings(graph, options)?;
+        let files = self.0.files(graph);
+        let (nodes, _) = settings.resolve(graph, &[block], options.keep_going, &files)?;
+        let node = nodes.last().filter(|node| node.id == block);
+        match node.and_then(|node| node.outputs.get(output as usize)) {
+            Some(found) => {
+                let (width, height) = settings.sizes.result;
+                Ok(OutputShape { width, height, planes: found.planes })
+            }
+            None => Err(graph.at(block, no_output(output))),
+        }
     }
+}
+
+/// What holds for one computation: the graph's settings with the options applied.
+struct Settings {
+    sizes: Sizes,
+    seed: u64,
+    precision: Precision,
+}
+
+impl Settings {
+    fn resolve<'g>(
+        &self,
+        graph: &'g Graph,
+        wanted: &[BlockId],
+        keep_going: bool,
+        files: &dyn Files,
+    ) -> Result<(Vec<Node<'g>>, Vec<Error>), Error> {
+        let purpose = Purpose {
+            working: self.sizes.working(),
+            seed: self.seed,
+            precision: self.precision,
+            keep_going,
+            files,
+        };
+        nodes::resolve(graph, wanted, &purpose)
+    }
+}
+
+impl Inner {
+    fn settings(&self, graph: &Graph, options: &ComputeOptions<'_>) -> Result<Settings, Error> {
+        let of_graph = graph.settings();
+        let (width, height) = options.size.unwrap_or((of_graph.width, of_graph.height));
+        let supersampling = options.supersampling.unwrap_or(of_graph.supersampling);
+        let max = crate::graph::Settings::MAX_SUPERSAMPLING;
+        if !(1..=max).contains(&supersampling) {
+            let message = format!("supersampling is {supersampling}, allowed 1..={max}");
+            return Err(Error::new(ErrorKind::OutOfRange, message));
+        }
+        if width == 0 || height == 0 {
+            let message = format!("size {width} × {height} is empty, allowed from 1 × 1");
+            return Err(Error::new(ErrorKind::OutOfRange, message));
+        }
+        let side = self.options.limits.image_side;
+        let longest = u64::from(width.max(height)) * u64::from(supersampling);
+        if longest > u64::from(side) {
+            let message = format!(
+                "{width} × {height} with supersampling {supersampling} has a side of {longest} \
+                 pixels, allowed {side}"
+            );
+            return Err(Error::new(ErrorKind::Limit, message)
+                .with_hint("ask for a smaller size, or raise the limit of image sides"));
+        }
+        Ok(Settings {
+            sizes: Sizes { result: (width, height), supersampling },
+            seed: options.seed.unwrap_or(of_graph.seed),
+            precision: options.precision.unwrap_or(of_graph.precision),
+        })
+    }
+
+    fn files(&self, graph: &Graph) -> GraphFiles {
+        GraphFiles::new(FileAccess {
+            folder: graph.folder().map(Path::to_path_buf),
+            read_folders: self.options.read_folders.clone(),
+            write_folders: self.options.write_folders.clone(),
+            read_bytes: self.options.limits.read_bytes,
+        })
+    }
+
+    /// Where a `save file` block writes to.
+    fn target_of(&self, graph: &Graph, id: BlockId) -> Result<PathBuf, Error> {
+        let files = self.files(graph);
+        let block = graph.block(id)?;
+        let params = graph.known(id)?.params.iter().zip(block.values());
+        for (spec, value) in params {
+            if let (ParamKind::Path(FileUse::Write), ParamValue::Text(path)) = (&spec.kind, value) {
+                let resolved = files.access().resolve_write(path);
+                return resolved.map_err(|error| graph.at(id, error.at_parameter(spec.id)));
+            }
+        }
+        Err(graph.at(id, Error::new(ErrorKind::Internal, "has no parameter that names a file")))
+    }
+
+    /// Computes the wanted outputs: as values, or the only one into `target`.
+    fn compute(
+        &self,
+        graph: &Graph,
+        wanted: &[(BlockId, u32)],
+        mut options: ComputeOptions<'_>,
+        target: Option<PixelsMut<'_>>,
+    ) -> Result<Vec<Value>, Error> {
+        let settings = self.settings(graph, &options)?;
+        let files = self.files(graph);
+        let ids: Vec<BlockId> = wanted.iter().map(|(id, _)| *id).collect();
+        let (nodes, failures) = settings.resolve(graph, &ids, options.keep_going, &files)?;
+        let wanted = find_wanted(graph, &nodes, wanted)?;
+        let handover = if target.is_some() { Handover::Rows } else { Handover::Value };
+        let plan = Plan::new(nodes, wanted, settings.sizes, handover, &self.cache)?;
+        plan.check_memory(options.memory_bytes.unwrap_or(self.options.limits.memory_bytes))?;
+        let mut sinks = self.sinks(&plan, target)?;
+        let first = plan.nodes[plan.wanted[0].node].id;
+        // A closure of its own lets the monitor borrow it for as long as the locals live.
+        let mut tell =
+            options.progress.take().map(|progress| move |report: &ProgressReport| progress(report));
+        let tell = tell
+            .as_mut()
+            .map(|tell| (tell as &mut ProgressFn<'_>, options.progress_interval, first));
+        let threads = options.threads as usize;
+        let monitor = Monitor::new(&self.threads, threads, options.cancel.take(), plan.units, tell);
+        let means = Means {
+            precision: settings.precision,
+            simd: self.options.simd,
+            pool: &self.pool,
+            files: &files,
+            cache: &self.cache,
+            monitor: &monitor,
+            keep_going: options.keep_going,
+            strip_rows: options.strip_rows,
+        };
+        let mut execution = Execution::new(&plan, &means, failures);
+        let done = execution.run(&mut sinks);
+        let values = done.and_then(|()| collect(&plan, handover, &execution, sinks));
+        if let Some(collected) = options.failures.take() {
+            collected.append(&mut execution.failures);
+        }
+        drop(execution);
+        drop(plan);
+        // What the cache keeps comes on top; unused memory stays for the next computation as long
+        // as it is no more than the caller lets the engine keep anyway.
+        self.pool.trim(self.cache.budget());
+        values
+    }
+
+    /// One sink for each wanted output; those that are given as stored get none of the rows.
+    fn sinks<'a>(
+        &self,
+        plan: &Plan<'_>,
+        target: Option<PixelsMut<'a>>,
+    ) -> Result<Vec<Sink<'a>>, Error> {
+        let (width, height) = plan.sizes.result;
+        let supersampling = plan.sizes.supersampling;
+        if let Some(target) = target {
+            let wanted = &plan.wanted[0];
+            let output = &plan.nodes[wanted.node].outputs[wanted.output];
+            if output.kind != Kind::Image {
+                let message = format!("the output gives a {}, not an image", output.kind.name());
+                return Err(Error::new(ErrorKind::TypeMismatch, message));
+            }
+            target.check(width, height)?;
+            let target = (target.format, target.pixels, target.stride);
+            return Ok(vec![Sink::pixels(target, width, output.planes, supersampling)]);
+        }
+        let sink = |wanted: &Wanted| {
+            let output = &plan.nodes[wanted.node].outputs[wanted.output];
+            if plan.is_given_as_stored(wanted, Handover::Value) {
+                return Ok(Sink::none());
+            }
+            let image = Image::new(&self.pool, width, height, output.planes)?;
+            Ok(Sink::image(image, supersampling))
+        };
+        plan.wanted.iter().map(sink).collect()
+    }
+}
+
+fn no_output(output: u32) -> Error {
+    Error::new(ErrorKind::NotFound, format!("has no output {output}"))
+}
+
+/// The places of the wanted outputs among the nodes.
+fn find_wanted(
+    graph: &Graph,
+    nodes: &[Node<'_>],
+    wanted: &[(BlockId, u32)],
+) -> Result<Vec<Wanted>, Error> {
+    let find = |(id, output): &(BlockId, u32)| {
+        let node = nodes.iter().position(|node| node.id == *id);
+        let place = node.zip(usize::try_from(*output).ok());
+        place
+            .filter(|(node, output)| *output < nodes[*node].outputs.len())
+            .map(|(node, output)| Wanted { node, output })
+            .ok_or_else(|| graph.at(*id, no_output(*output)))
+    };
+    wanted.iter().map(find).collect()
+}
+
+/// The values that were asked for; none if they went into the caller's pixels.
+fn collect(
+    plan: &Plan<'_>,
+    handover: Handover,
+    execution: &Execution<'_, '_>,
+    sinks: Vec<Sink<'_>>,
+) -> Result<Vec<Value>, Error> {
+    if handover == Handover::Rows {
+        return Ok(Vec::new());
+    }
+    let value = |(wanted, sink): (&Wanted, Sink<'_>)| {
+        let stored = || execution.value(wanted.node, wanted.output).cloned();
+        sink.into_image()
+            .map(Value::Image)
+            .or_else(stored)
+            .ok_or_else(|| Error::new(ErrorKind::Internal, "a wanted value was not computed"))
+    };
+    plan.wanted.iter().zip(sinks).map(value).collect()
 }

@@ -1,10 +1,31 @@
 //! Computing graphs.
 //!
 //! [`Engine`] owns what computations share: the block types, the threads, the cache, recycled
-//! memory, the file policy.
+//! memory, the file policy. A computation takes this way:
+//!
+//! 1. `nodes`: the blocks that the wanted outputs need, resolved.
+//! 2. `plan`: what is stored, what is fused, in which order, and how much memory that takes.
+//! 3. `execute`: stage after stage; `rows` runs a stage strip by strip, `finish` is the store at
+//!    the end of each block, `sink` takes what is wanted.
+//! 4. `monitor`: progress and cancelling; `threads`: the pool; `cache` and `key`: what is kept.
 
+mod cache;
 mod cancel;
 mod engine;
+mod execute;
+mod files;
+mod finish;
+mod key;
+mod monitor;
+mod nodes;
+mod plan;
+mod rows;
+mod sink;
+#[cfg(test)]
+mod tests;
+mod threads;
 
 pub use cancel::Cancel;
-pub use engine::{ComputeOptions, Engine, EngineOptions, OutputShape, ProgressFn, ProgressReport};
+pub use engine::{
+    ComputeOptions, Engine, EngineOptions, OutputShape, PixelsMut, ProgressFn, ProgressReport,
+};

@@ -32,7 +32,8 @@ impl Image {
         planes: usize,
     ) -> Result<Self, Error> {
         let len = width as usize * height as usize;
-        let planes = (0..planes).map(|_| pool.plane(len).map(Arc::new)).collect::<Result<_, _>>()?;
+        let planes =
+            (0..planes).map(|_| pool.plane(len).map(Arc::new)).collect::<Result<_, _>>()?;
         Ok(Self { width, height, planes })
     }
 
@@ -88,6 +89,46 @@ impl Image {
         self.planes.iter_mut().map(|plane| {
             Arc::get_mut(plane).expect("an image is written by its maker only").data_mut()
         })
+    }
+
+    /// The image with `change` applied to each plane: in place where nobody else holds the plane,
+    /// otherwise to a copy. A plane that serves several channels is changed once.
+    ///
+    /// # Errors
+    /// What `change` returns, or [`NoMemory`](crate::ErrorKind::NoMemory) for a copy.
+    pub(crate) fn map_planes(
+        mut self,
+        pool: &Arc<BufferPool>,
+        change: impl Fn(&mut [f32]) -> Result<(), Error>,
+    ) -> Result<Self, Error> {
+        let twins: Vec<Option<usize>> = (0..self.planes.len())
+            .map(|i| (0..i).find(|&j| Arc::ptr_eq(&self.planes[i], &self.planes[j])))
+            .collect();
+        let mut changed: Vec<Arc<Plane>> = Vec::with_capacity(self.planes.len());
+        let mut planes = std::mem::take(&mut self.planes);
+        for (i, twin) in twins.iter().enumerate().rev() {
+            if twin.is_some() {
+                planes.remove(i);
+            }
+        }
+        let mut distinct = planes.into_iter();
+        for twin in twins {
+            let plane = match twin {
+                Some(twin) => Arc::clone(&changed[twin]),
+                None => {
+                    let mut plane = distinct.next().expect("one distinct plane for each");
+                    if Arc::get_mut(&mut plane).is_none() {
+                        let mut copy = pool.plane(plane.data().len())?;
+                        copy.data_mut().copy_from_slice(plane.data());
+                        plane = Arc::new(copy);
+                    }
+                    change(Arc::get_mut(&mut plane).expect("nobody else holds it").data_mut())?;
+                    plane
+                }
+            };
+            changed.push(plane);
+        }
+        Ok(Self { planes: changed, ..self })
     }
 
     /// The memory of the planes in bytes.

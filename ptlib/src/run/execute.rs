@@ -1,0 +1,339 @@
+//! Carrying out a plan, stage after stage.
+
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
+use super::{
+    cache::Cache,
+    finish::Store,
+    monitor::Monitor,
+    nodes::{Node, Work},
+    plan::{Plan, Stage},
+    rows::{self, Member, RowSource, StageRows},
+    sink::Sink,
+};
+use crate::{
+    block::{Context, Files, Progress, RowKernel},
+    error::{Error, ErrorKind},
+    math::{levels::Precision, simd::SimdLevel},
+    value::{BufferPool, Image, Kind, Value},
+};
+
+/// What a computation uses and shares.
+pub(super) struct Means<'a> {
+    pub(super) precision: Precision,
+    pub(super) simd: SimdLevel,
+    pub(super) pool: &'a Arc<BufferPool>,
+    pub(super) files: &'a dyn Files,
+    pub(super) cache: &'a Cache,
+    pub(super) monitor: &'a Monitor<'a>,
+    pub(super) keep_going: bool,
+    /// Rows of a task; 0 to choose.
+    pub(super) strip_rows: u32,
+}
+
+/// The values of all nodes while a plan is carried out, and what went wrong on the way.
+pub(super) struct Execution<'a, 'g> {
+    plan: &'a Plan<'g>,
+    means: &'a Means<'a>,
+    /// Per node and output.
+    values: Vec<Vec<Option<Value>>>,
+    /// Faults that a white image stands for.
+    pub(super) failures: Vec<Error>,
+    /// Numbers that were not finite.
+    pub(super) strange_numbers: u64,
+}
+
+impl<'a, 'g> Execution<'a, 'g> {
+    pub(super) fn new(plan: &'a Plan<'g>, means: &'a Means<'a>, failures: Vec<Error>) -> Self {
+        let values = plan.nodes.iter().map(|node| match &node.work {
+            Work::Kept(values) => values.iter().cloned().map(Some).collect(),
+            _ => vec![None; node.outputs.len()],
+        });
+        let values = values.collect();
+        Self { plan, means, values, failures, strange_numbers: 0 }
+    }
+
+    /// Computes everything; `sinks` has one sink for each wanted output of the plan.
+    pub(super) fn run(&mut self, sinks: &mut [Sink<'_>]) -> Result<(), Error> {
+        for (number, stage) in (0..).zip(&self.plan.stages) {
+            let root = &self.plan.nodes[stage.root];
+            self.means.monitor.start_stage(number, root.id, stage.units);
+            self.means.monitor.check()?;
+            match &root.work {
+                Work::Whole(_) if !stage.members.is_empty() => self.compute_whole(stage)?,
+                _ => self.compute_rows(stage, sinks)?,
+            }
+            self.keep(stage);
+            for node in &stage.freed {
+                self.values[*node].fill(None);
+            }
+        }
+        self.means.monitor.finish()
+    }
+
+    /// The stored value of an output.
+    pub(super) fn value(&self, node: usize, output: usize) -> Option<&Value> {
+        self.values[node][output].as_ref()
+    }
+
+    /// Puts what a stage stored into the cache. Results that white images stand in are not what
+    /// their keys say.
+    fn keep(&self, stage: &Stage) {
+        if stage.members.is_empty() || !self.means.cache.is_on() || !self.failures.is_empty() {
+            return;
+        }
+        let key = &self.plan.nodes[stage.root].key;
+        for (output, value) in self.values[stage.root].iter().enumerate() {
+            if let Some(value) = value {
+                self.means.cache.put(key.of_output(output, 1), value);
+            }
+        }
+    }
+
+    fn context<'b>(&'b self, node: &Node<'_>, inputs: &'b [Option<Value>]) -> Context<'b> {
+        let (width, height) = self.plan.sizes.working();
+        Context {
+            width,
+            height,
+            seed: node.seed,
+            simd: self.means.simd,
+            inputs,
+            pool: self.means.pool,
+            files: self.means.files,
+            progress: self.means.monitor,
+        }
+    }
+
+    /// The stored values at the inputs of a node.
+    fn inputs(&self, node: &Node<'_>) -> Vec<Option<Value>> {
+        let value = |link: &super::nodes::Link| self.values[link.node][link.output].clone();
+        node.inputs.iter().map(|link| link.as_ref().and_then(value)).collect()
+    }
+
+    fn compute_whole(&mut self, stage: &Stage) -> Result<(), Error> {
+        let node = &self.plan.nodes[stage.root];
+        let Work::Whole(factory) = node.work else { return Ok(()) };
+        let inputs = self.inputs(node);
+        let cx = self.context(node, &inputs);
+        let computed = guard(|| factory.compute(node.block.values(), self.means.precision, &cx));
+        drop(inputs);
+        match computed.and_then(|values| self.check_outputs(node, values)) {
+            Ok((values, strange)) => {
+                self.values[stage.root] = values.into_iter().map(Some).collect();
+                self.strange_numbers += strange;
+            }
+            Err(error) => {
+                self.fail(node, error)?;
+                self.values[stage.root] = self.white(node)?;
+            }
+        }
+        self.means.monitor.add_units(stage.units);
+        Ok(())
+    }
+
+    /// Notes a failure, or ends the computation with it.
+    fn fail(&mut self, node: &Node<'_>, error: Error) -> Result<(), Error> {
+        let error = node.at(error);
+        if !self.means.keep_going || error.kind() == ErrorKind::Cancelled {
+            return Err(error);
+        }
+        self.failures.push(error);
+        Ok(())
+    }
+
+    /// White images in place of the outputs of a block that failed.
+    fn white(&self, node: &Node<'_>) -> Result<Vec<Option<Value>>, Error> {
+        let (width, height) = self.plan.sizes.working();
+        let outputs = node.outputs.iter().map(|output| {
+            if output.kind != Kind::Image {
+                return Ok(None);
+            }
+            let mut image = Image::new(self.means.pool, width, height, output.planes)?;
+            image.planes_mut().for_each(|plane| plane.fill(1.0));
+            Ok(Some(Value::Image(image)))
+        });
+        outputs.collect()
+    }
+
+    /// What a block of shape Whole gave, stored as its outputs say.
+    fn check_outputs(
+        &self,
+        node: &Node<'_>,
+        values: Vec<Value>,
+    ) -> Result<(Vec<Value>, u64), Error> {
+        let broken = |what: String| Err(Error::new(ErrorKind::Internal, what));
+        if values.len() != node.outputs.len() {
+            return broken(format!("gave {} of {} outputs", values.len(), node.outputs.len()));
+        }
+        let (width, height) = self.plan.sizes.working();
+        let strange = AtomicU64::new(0);
+        let mut stored = Vec::with_capacity(values.len());
+        for (value, output) in values.into_iter().zip(&node.outputs) {
+            if value.kind() != output.kind {
+                return broken(format!(
+                    "gave a value of kind {} for one of kind {}",
+                    value.kind().name(),
+                    output.kind.name()
+                ));
+            }
+            let Value::Image(image) = value else {
+                stored.push(value);
+                continue;
+            };
+            if (image.width(), image.height()) != (width, height) || image.planes() != output.planes
+            {
+                return broken(format!(
+                    "gave {} planes of {} × {} for {} of {width} × {height}",
+                    image.planes(),
+                    image.width(),
+                    image.height(),
+                    output.planes
+                ));
+            }
+            let store = Store::of(self.means.precision, output.is_free);
+            let image = image.map_planes(self.means.pool, |plane| {
+                let progress: &dyn Progress = self.means.monitor;
+                let pieces: Vec<_> = plane.chunks_mut(1 << 16).map(Mutex::new).collect();
+                progress.parallel(pieces.len(), &|i| {
+                    let mut piece = pieces[i].lock().unwrap_or_else(PoisonError::into_inner);
+                    let count = store.apply(self.means.simd, &mut piece);
+                    strange.fetch_add(u64::from(count), Ordering::Relaxed);
+                    Ok(())
+                })
+            })?;
+            stored.push(Value::Image(image));
+        }
+        Ok((stored, strange.into_inner()))
+    }
+
+    fn compute_rows(&mut self, stage: &Stage, sinks: &mut [Sink<'_>]) -> Result<(), Error> {
+        let mut members = Vec::with_capacity(stage.members.len());
+        for &number in &stage.members {
+            let member = self.prepare(number, stage)?;
+            members.push(member);
+        }
+        let root = &self.plan.nodes[stage.root];
+        let (width, height) = self.plan.sizes.working();
+        let is_stored = root.is_stored && !members.is_empty();
+        let mut stored = Vec::new();
+        if is_stored {
+            for output in &root.outputs {
+                stored.push(Image::new(self.means.pool, width, height, output.planes)?);
+            }
+        }
+        let rows = StageRows {
+            members: &members,
+            given: match (members.is_empty(), stage.handed_over.first()) {
+                (true, Some(place)) => self.value(stage.root, self.plan.wanted[*place].output),
+                _ => None,
+            },
+            handed_over: stage
+                .handed_over
+                .iter()
+                .map(|place| rows::Handed {
+                    place: *place,
+                    first_plane: root.first_plane(self.plan.wanted[*place].output),
+                    planes: root.outputs[self.plan.wanted[*place].output].planes,
+                })
+                .collect(),
+            sizes: self.plan.sizes,
+            units: stage.units,
+        };
+        let strange = rows.run(self.means, &mut stored, sinks);
+        let strange = strange.map_err(|(member, error)| match member {
+            Some(member) => self.plan.nodes[stage.members[member]].at(error),
+            None => error,
+        })?;
+        drop(members);
+        self.strange_numbers += strange;
+        if is_stored {
+            self.values[stage.root] =
+                stored.into_iter().map(|image| Some(Value::Image(image))).collect();
+        }
+        Ok(())
+    }
+
+    /// Prepares a node for the stage that it is fused into.
+    fn prepare(&mut self, number: usize, stage: &Stage) -> Result<Member, Error> {
+        let node = &self.plan.nodes[number];
+        let kernel = self.kernel(node);
+        let kernel = match kernel {
+            Ok(kernel) => kernel,
+            Err(error) => {
+                self.fail(node, error)?;
+                Box::new(White)
+            }
+        };
+        let sources = node.inputs.iter().enumerate().map(|(port, link)| {
+            let Some(link) = link else { return RowSource::None };
+            if node.access(port) == crate::block::Access::Anywhere {
+                return RowSource::None;
+            }
+            match stage.members.iter().position(|member| *member == link.node) {
+                Some(member) => RowSource::Member {
+                    member,
+                    first_plane: self.plan.nodes[link.node].first_plane(link.output),
+                    planes: self.plan.nodes[link.node].outputs[link.output].planes,
+                },
+                None => match self.value(link.node, link.output) {
+                    Some(Value::Image(image)) => RowSource::Image(image.clone()),
+                    _ => RowSource::None,
+                },
+            }
+        });
+        let stores = node.outputs.iter().flat_map(|output| {
+            let store = Store::of(self.means.precision, output.is_free);
+            std::iter::repeat_n(store, output.planes)
+        });
+        Ok(Member {
+            kernel,
+            sources: sources.collect(),
+            stores: stores.collect(),
+            needs_whole_rows: node.reads_anywhere(),
+        })
+    }
+
+    fn kernel(&self, node: &Node<'_>) -> Result<Box<dyn RowKernel>, Error> {
+        match node.work {
+            Work::Rows(factory) => {
+                let inputs = self.inputs(node);
+                let cx = self.context(node, &inputs);
+                guard(|| factory.prepare(node.block.values(), self.means.precision, &cx))
+            }
+            _ => Ok(Box::new(White)),
+        }
+    }
+}
+
+/// Runs code of a block; a panic in it becomes an error.
+pub(super) fn guard<T>(run: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+    catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|payload| {
+        let text = payload
+            .downcast_ref::<&str>()
+            .copied()
+            .or_else(|| payload.downcast_ref::<String>().map(String::as_str))
+            .unwrap_or("no message");
+        let message = format!("the block has a defect and panicked: {text}");
+        Err(Error::new(ErrorKind::Internal, message))
+    })
+}
+
+/// Stands for a block that failed.
+struct White;
+
+impl RowKernel for White {
+    fn row(
+        &self,
+        _: &crate::block::RowContext,
+        _: &crate::block::InputRows<'_>,
+        out: &mut crate::block::OutputRow<'_>,
+    ) {
+        out.iter_mut().for_each(|plane| plane.fill(1.0));
+    }
+}

@@ -1,0 +1,296 @@
+//! A stage row by row: fused blocks, strip by strip on all threads.
+//!
+//! A strip is some rows of the image, a task of the pool. Inside it, each row (or, where every
+//! block of the stage is a Point, each segment of a row) passes through all blocks of the stage
+//! before the next one starts: intermediate rows stay in the nearest cache. Values depend neither
+//! on strips nor on segments, because a block sees only positions.
+
+use std::sync::{
+    Mutex, PoisonError,
+    atomic::{AtomicU64, Ordering},
+};
+
+use super::{
+    execute::{Means, guard},
+    finish::Store,
+    plan::Sizes,
+    sink::{Sink, SinkStrip},
+};
+use crate::{
+    block::{InputRows, OutputRow, PortRow, Progress, RowContext, RowKernel},
+    error::Error,
+    value::{Image, Plane, Value},
+};
+
+/// Pixels of a segment: with some buffers of this length, a chain of blocks stays in a 32 KiB
+/// first-level cache.
+const SEGMENT: usize = 1024;
+
+/// Pixels of a strip: long enough that starting a task costs nothing, short enough that a request
+/// to stop is heard soon and that threads finish together.
+const STRIP_PIXELS: u32 = 1 << 16;
+
+/// A block fused into a stage.
+pub(super) struct Member {
+    pub(super) kernel: Box<dyn RowKernel>,
+    pub(super) sources: Vec<RowSource>,
+    /// How each plane of its outputs is stored.
+    pub(super) stores: Vec<Store>,
+    /// Whether it writes whole rows only.
+    pub(super) needs_whole_rows: bool,
+}
+
+/// Where the row at an input comes from.
+pub(super) enum RowSource {
+    /// Nowhere, or not as a row.
+    None,
+    /// Another member of the stage.
+    Member { member: usize, first_plane: usize, planes: usize },
+    /// A stored image.
+    Image(Image),
+}
+
+/// An output of the root that goes to a sink.
+pub(super) struct Handed {
+    /// The sink's place.
+    pub(super) place: usize,
+    pub(super) first_plane: usize,
+    pub(super) planes: usize,
+}
+
+/// A stage, ready to run.
+pub(super) struct StageRows<'a> {
+    /// In topological order, the root last.
+    pub(super) members: &'a [Member],
+    /// The stored value that is handed over, in a stage without members.
+    pub(super) given: Option<&'a Value>,
+    pub(super) handed_over: Vec<Handed>,
+    pub(super) sizes: Sizes,
+    pub(super) units: u64,
+}
+
+/// An error, and the member that made it.
+type MemberError = (Option<usize>, Error);
+
+/// The part of the outputs that one strip writes.
+struct Strip<'a> {
+    first_row: u32,
+    rows: u32,
+    /// The root's planes, if it is stored.
+    stored: Vec<&'a mut [f32]>,
+    sinks: Vec<SinkStrip<'a>>,
+}
+
+impl StageRows<'_> {
+    /// Computes all rows into the root's images `stored` (none if it is not stored) and the sinks.
+    /// Returns how many numbers were not finite.
+    pub(super) fn run(
+        &self,
+        means: &Means<'_>,
+        stored: &mut [Image],
+        sinks: &mut [Sink<'_>],
+    ) -> Result<u64, MemberError> {
+        let (width, height) = self.sizes.working();
+        let rows = self.strip_rows(means);
+        let count = height.div_ceil(rows);
+        let strips = self.split(rows, count, stored, sinks);
+        let strange = AtomicU64::new(0);
+        let culprit: Mutex<Option<(u32, usize)>> = Mutex::new(None);
+        let buffers: Mutex<Vec<Buffers>> = Mutex::new(Vec::new());
+        let progress: &dyn Progress = means.monitor;
+        let done = progress.parallel(strips.len(), &|number| {
+            let mut strip = strips[number].lock().unwrap_or_else(PoisonError::into_inner);
+            let reused = buffers.lock().unwrap_or_else(PoisonError::into_inner).pop();
+            let mut own = match reused {
+                Some(own) => own,
+                None => Buffers::new(self, means, width)?,
+            };
+            let mut at = None;
+            let result = guard(|| self.run_strip(means, &mut strip, &mut own, &mut at));
+            match result {
+                Ok(count) => strange.fetch_add(count, Ordering::Relaxed),
+                Err(error) => {
+                    let mut culprit = culprit.lock().unwrap_or_else(PoisonError::into_inner);
+                    if let Some(member) = at
+                        && culprit.is_none_or(|(strip_before, _)| strip.first_row < strip_before)
+                    {
+                        *culprit = Some((strip.first_row, member));
+                    }
+                    return Err(error);
+                }
+            };
+            means.monitor.add_units(self.units * u64::from(strip.rows) / u64::from(height));
+            buffers.lock().unwrap_or_else(PoisonError::into_inner).push(own);
+            Ok(())
+        });
+        let culprit = culprit.into_inner().unwrap_or_else(PoisonError::into_inner);
+        done.map_err(|error| (culprit.map(|(_, member)| member), error))?;
+        Ok(strange.into_inner())
+    }
+
+    /// Rows of a strip: a multiple of the supersampling, so that a result row has one maker.
+    fn strip_rows(&self, means: &Means<'_>) -> u32 {
+        let (width, height) = self.sizes.working();
+        let step = self.sizes.supersampling;
+        let wanted = match means.strip_rows {
+            0 => {
+                let threads = u32::try_from(means.monitor.thread_count()).unwrap_or(u32::MAX);
+                (STRIP_PIXELS / width).min(height / threads.saturating_mul(4))
+            }
+            rows => rows,
+        };
+        wanted.clamp(1, height).next_multiple_of(step)
+    }
+
+    fn split<'a>(
+        &self,
+        rows: u32,
+        count: u32,
+        stored: &'a mut [Image],
+        sinks: &'a mut [Sink<'_>],
+    ) -> Vec<Mutex<Strip<'a>>> {
+        let (width, height) = self.sizes.working();
+        let mut strips: Vec<Strip<'a>> = (0..count)
+            .map(|number| Strip {
+                first_row: number * rows,
+                rows: rows.min(height - number * rows),
+                stored: Vec::new(),
+                sinks: Vec::new(),
+            })
+            .collect();
+        let piece = width as usize * rows as usize;
+        for plane in stored.iter_mut().flat_map(Image::planes_mut) {
+            for (strip, part) in strips.iter_mut().zip(plane.chunks_mut(piece)) {
+                strip.stored.push(part);
+            }
+        }
+        for (place, sink) in sinks.iter_mut().enumerate() {
+            if self.handed_over.iter().any(|handed| handed.place == place) {
+                let parts = sink.split(rows / self.sizes.supersampling);
+                for (strip, part) in strips.iter_mut().zip(parts) {
+                    strip.sinks.push(part);
+                }
+            }
+        }
+        strips.into_iter().map(Mutex::new).collect()
+    }
+
+    fn run_strip(
+        &self,
+        means: &Means<'_>,
+        strip: &mut Strip<'_>,
+        buffers: &mut Buffers,
+        at: &mut Option<usize>,
+    ) -> Result<u64, Error> {
+        let (width, height) = self.sizes.working();
+        let mut strange = 0;
+        for row in 0..strip.rows {
+            means.monitor.check()?;
+            let y = strip.first_row + row;
+            let mut x = 0;
+            while x < width {
+                let len = buffers.segment.min((width - x) as usize);
+                let cx = RowContext { x, y, width, height };
+                let offset = row as usize * width as usize + x as usize;
+                for (number, member) in self.members.iter().enumerate() {
+                    *at = Some(number);
+                    let is_root = number + 1 == self.members.len();
+                    let target = (is_root && !strip.stored.is_empty())
+                        .then_some((strip.stored.as_mut_slice(), offset));
+                    strange += self.run_member(means, member, number, &cx, len, buffers, target);
+                }
+                *at = None;
+                x += u32::try_from(len).unwrap_or(u32::MAX);
+            }
+            self.hand_over(means, strip, buffers, row);
+        }
+        Ok(strange)
+    }
+
+    /// Computes one member on one segment, into its buffers or into the stored planes.
+    #[expect(clippy::too_many_arguments, reason = "the state of the innermost loop")]
+    fn run_member(
+        &self,
+        means: &Means<'_>,
+        member: &Member,
+        number: usize,
+        cx: &RowContext,
+        len: usize,
+        buffers: &mut Buffers,
+        target: Option<(&mut [&mut [f32]], usize)>,
+    ) -> u64 {
+        let mut own = std::mem::take(&mut buffers.rows[number]);
+        let mut out = match target {
+            Some((planes, offset)) => {
+                OutputRow::new(planes.iter_mut().map(|plane| &mut plane[offset..offset + len]))
+            }
+            None => OutputRow::new(own.iter_mut().map(|plane| &mut plane.data_mut()[..len])),
+        };
+        let mut ports = [PortRow::default(); MAX_PORTS];
+        for (port, source) in ports.iter_mut().zip(&member.sources) {
+            *port = match source {
+                RowSource::None => PortRow::default(),
+                RowSource::Member { member, first_plane, planes } => {
+                    let rows = &buffers.rows[*member][*first_plane..*first_plane + *planes];
+                    PortRow::new(rows.iter().map(|plane| &plane.data()[..len]))
+                }
+                RowSource::Image(image) => PortRow::new(
+                    (0..image.planes())
+                        .map(|channel| &image.row(channel, cx.y)[cx.x as usize..][..len]),
+                ),
+            };
+        }
+        let inputs = InputRows::new(&ports[..member.sources.len().min(MAX_PORTS)]);
+        member.kernel.row(cx, &inputs, &mut out);
+        let mut strange = 0;
+        for (plane, store) in out.iter_mut().zip(&member.stores) {
+            strange += u64::from(store.apply(means.simd, plane));
+        }
+        buffers.rows[number] = own;
+        strange
+    }
+
+    /// Gives row `row` of the strip to its sinks.
+    fn hand_over(&self, means: &Means<'_>, strip: &mut Strip<'_>, buffers: &Buffers, row: u32) {
+        let width = self.sizes.working().0 as usize;
+        let start = row as usize * width;
+        for (handed, sink) in self.handed_over.iter().zip(&mut strip.sinks) {
+            let mut planes: [&[f32]; crate::value::MAX_PLANES] = [&[]; _];
+            for (channel, plane) in planes.iter_mut().enumerate().take(handed.planes) {
+                *plane = match (self.given, self.members.len().checked_sub(1)) {
+                    (Some(Value::Image(image)), _) => image.row(channel, strip.first_row + row),
+                    (_, Some(_)) if !strip.stored.is_empty() => {
+                        &strip.stored[handed.first_plane + channel][start..start + width]
+                    }
+                    (_, Some(root)) => {
+                        &buffers.rows[root][handed.first_plane + channel].data()[..width]
+                    }
+                    _ => &[],
+                };
+            }
+            sink.put(means.precision, row, &planes[..handed.planes]);
+        }
+    }
+}
+
+/// The most inputs of a block.
+pub(super) const MAX_PORTS: usize = 16;
+
+/// The rows that one thread computes with: per member, one a plane.
+struct Buffers {
+    rows: Vec<Vec<Plane>>,
+    segment: usize,
+}
+
+impl Buffers {
+    fn new(stage: &StageRows<'_>, means: &Means<'_>, width: u32) -> Result<Self, Error> {
+        let whole_rows = stage.members.iter().any(|member| member.needs_whole_rows)
+            || !stage.handed_over.is_empty();
+        let segment = if whole_rows { width as usize } else { SEGMENT.min(width as usize) };
+        let planes = |member: &Member| {
+            (0..member.stores.len()).map(|_| means.pool.plane(segment)).collect::<Result<_, _>>()
+        };
+        let rows = stage.members.iter().map(planes).collect::<Result<_, _>>()?;
+        Ok(Self { rows, segment })
+    }
+}
