@@ -1,0 +1,9 @@
+//! Suites that cross crates: `../README.md` says which test goes where.
+#![expect(clippy::print_stdout, reason = "tests tell what they skipped and where they wrote")]
+
+mod conformance;
+mod frozen;
+mod golden;
+mod laws;
+mod picture;
+mod specimen;

@@ -1,0 +1,77 @@
+//! Every block of the registry in a graph of its own, for tests that walk the registry.
+
+use ptlib::{
+    BlockId, Engine, EngineOptions, Graph, Precision,
+    block::BlockSpec,
+    params::{FileUse, ParamKind, ParamValue},
+    value::Kind,
+};
+
+use crate::picture::folder;
+
+/// A block with something at each of its inputs.
+pub struct Specimen {
+    pub graph: Graph,
+    pub block: BlockId,
+}
+
+/// An engine without a cache, so that everything is computed.
+pub fn engine() -> Engine {
+    Engine::new(EngineOptions { threads: 8, cache_bytes: 0, ..EngineOptions::default() })
+}
+
+impl Specimen {
+    /// The block type in a graph of `width` × `height` pixels. The first image input gets a colour
+    /// picture, the second a grey one, and so on in turn; all of them tile.
+    pub fn new(engine: &Engine, spec: &'static BlockSpec, width: u32, height: u32) -> Self {
+        let mut graph = engine.new_graph();
+        graph.set_size(width, height).expect("sizes of tests are not empty");
+        graph.set_folder(Some(folder("conformance")));
+        let block = graph.add(spec.about.id).expect("the type comes from the registry");
+        for (param, kind) in spec.params.iter().map(|param| (param.id, param.kind)) {
+            if let ParamKind::Path(FileUse::Read) = kind {
+                let path = ParamValue::Text("in/colour.png".into());
+                graph.set(block, param, path).expect("a path takes any text");
+            }
+        }
+        for (port, input) in (0..).zip(spec.about.inputs) {
+            let source = match input.kind {
+                Kind::Image if port % 2 == 0 => colour(&mut graph, u64::from(port)),
+                Kind::Image => grey(&mut graph, u64::from(port)),
+                Kind::Gradient => gradient(&mut graph),
+                // Only optional inputs take a text so far.
+                _ if input.is_optional => continue,
+                kind => panic!("no specimen for inputs of kind {}", kind.name()),
+            };
+            graph.connect(source, 0, block, port).expect("the kinds agree");
+        }
+        Self { graph, block }
+    }
+
+    /// The specimen in that precision.
+    pub fn precision(mut self, precision: Precision) -> Self {
+        self.graph.set_precision(precision);
+        self
+    }
+}
+
+fn grey(graph: &mut Graph, seed: u64) -> BlockId {
+    let noise = graph.add("perlin noise").expect("built in");
+    graph.set_block_seed(noise, Some(seed)).expect("just added");
+    noise
+}
+
+fn gradient(graph: &mut Graph) -> BlockId {
+    let gradient = graph.add("color transition").expect("built in");
+    let stops = "0 10 0 60;90 200 40 20;160 240 200 60;255 250 255 255";
+    graph.set_text(gradient, "data", stops).expect("a text");
+    gradient
+}
+
+fn colour(graph: &mut Graph, seed: u64) -> BlockId {
+    let (noise, gradient) = (grey(graph, seed), gradient(graph));
+    let map = graph.add("map transition").expect("built in");
+    graph.connect(noise, 0, map, 0).expect("images");
+    graph.connect(gradient, 0, map, 1).expect("gradients");
+    map
+}
