@@ -80,7 +80,8 @@ fn no_block_is_pending_that_is_there() {
 fn graphs(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
     let paths = entries.map(|entry| entry.expect("the folder can be read").path());
-    let mut graphs: Vec<_> = paths.filter(|path| path.extension() == Some("xml".as_ref())).collect();
+    let mut graphs: Vec<_> =
+        paths.filter(|path| path.extension() == Some("xml".as_ref())).collect();
     graphs.sort();
     graphs
 }
@@ -103,11 +104,7 @@ fn compare(cases: &[PathBuf], tolerance: &Tolerance) {
 }
 
 /// Compares one case. Returns the pending block types that it needs.
-fn compare_one(
-    engine: &Engine,
-    path: &Path,
-    tolerance: &Tolerance,
-) -> Result<Vec<String>, String> {
+fn compare_one(engine: &Engine, path: &Path, tolerance: &Tolerance) -> Result<Vec<String>, String> {
     let graph = engine.open_graph(path).map_err(|error| error.to_string())?.graph;
     let unknown: BTreeSet<String> = graph
         .blocks()

@@ -225,7 +225,8 @@ fn step(image: &Image, pixel: impl Fn(usize, &[f32]) -> (f32, f32), count: usize
 fn column_steps(image: &Image) -> Vec<f32> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let column = |x: usize| {
-        let pixel = |y: usize, data: &[f32]| (data[y * width + x], data[y * width + (x + 1) % width]);
+        let pixel =
+            |y: usize, data: &[f32]| (data[y * width + x], data[y * width + (x + 1) % width]);
         step(image, pixel, height)
     };
     (0..width).map(column).collect()

@@ -11,6 +11,7 @@ use super::{
     cache::Cache,
     execute::{Execution, Means},
     files::GraphFiles,
+    log::{Log, LogFn, LogLevel},
     monitor::Monitor,
     nodes::{self, Node, Purpose},
     plan::{Handover, Plan, Sizes, Wanted},
@@ -185,6 +186,7 @@ struct Inner {
     threads: Threads,
     pool: Arc<BufferPool>,
     cache: Cache,
+    log: Log,
 }
 
 impl Engine {
@@ -196,6 +198,7 @@ impl Engine {
             threads: Threads::new(options.threads),
             pool: BufferPool::new(),
             cache: Cache::new(options.cache_bytes),
+            log: Log::default(),
             options,
         }))
     }
@@ -210,6 +213,11 @@ impl Engine {
     #[must_use]
     pub fn limits(&self) -> &Limits {
         &self.0.options.limits
+    }
+
+    /// Sends messages of at least `level` to `log` from now on, or nowhere.
+    pub fn set_log(&self, log: Option<(LogLevel, Arc<LogFn>)>) {
+        self.0.log.set(log);
     }
 
     /// An empty graph.
@@ -461,6 +469,7 @@ impl Inner {
             files: &files,
             cache: &self.cache,
             monitor: &monitor,
+            log: &self.log,
             keep_going: options.keep_going,
             strip_rows: options.strip_rows,
         };

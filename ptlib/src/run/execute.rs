@@ -11,6 +11,7 @@ use std::{
 use super::{
     cache::Cache,
     finish::Store,
+    log::{Log, LogLevel},
     monitor::Monitor,
     nodes::{Node, Work},
     plan::{Plan, Stage},
@@ -32,6 +33,7 @@ pub(super) struct Means<'a> {
     pub(super) files: &'a dyn Files,
     pub(super) cache: &'a Cache,
     pub(super) monitor: &'a Monitor<'a>,
+    pub(super) log: &'a Log,
     pub(super) keep_going: bool,
     /// Rows of a task; 0 to choose.
     pub(super) strip_rows: u32,
@@ -45,8 +47,6 @@ pub(super) struct Execution<'a, 'g> {
     values: Vec<Vec<Option<Value>>>,
     /// Faults that a white image stands for.
     pub(super) failures: Vec<Error>,
-    /// Numbers that were not finite.
-    pub(super) strange_numbers: u64,
 }
 
 impl<'a, 'g> Execution<'a, 'g> {
@@ -56,7 +56,7 @@ impl<'a, 'g> Execution<'a, 'g> {
             _ => vec![None; node.outputs.len()],
         });
         let values = values.collect();
-        Self { plan, means, values, failures, strange_numbers: 0 }
+        Self { plan, means, values, failures }
     }
 
     /// Computes everything; `sinks` has one sink for each wanted output of the plan.
@@ -126,7 +126,7 @@ impl<'a, 'g> Execution<'a, 'g> {
         match computed.and_then(|values| self.check_outputs(node, values)) {
             Ok((values, strange)) => {
                 self.values[stage.root] = values.into_iter().map(Some).collect();
-                self.strange_numbers += strange;
+                self.tell_strange(node, strange);
             }
             Err(error) => {
                 self.fail(node, error)?;
@@ -143,8 +143,18 @@ impl<'a, 'g> Execution<'a, 'g> {
         if !self.means.keep_going || error.kind() == ErrorKind::Cancelled {
             return Err(error);
         }
+        self.means.log.tell(LogLevel::Warning, &format!("went on with white: {error}"));
         self.failures.push(error);
         Ok(())
+    }
+
+    /// Logs that a block gave numbers that are not finite.
+    fn tell_strange(&self, node: &Node<'_>, count: u64) {
+        if count > 0 {
+            let message = format!("gave {count} numbers that are not finite; they became 0");
+            let error = node.at(Error::new(ErrorKind::Internal, message));
+            self.means.log.tell(LogLevel::Warning, &error.to_string());
+        }
     }
 
     /// White images in place of the outputs of a block that failed.
@@ -251,7 +261,9 @@ impl<'a, 'g> Execution<'a, 'g> {
             None => error,
         })?;
         drop(members);
-        self.strange_numbers += strange;
+        for (member, count) in stage.members.iter().zip(strange) {
+            self.tell_strange(&self.plan.nodes[*member], count);
+        }
         if is_stored {
             self.values[stage.root] =
                 stored.into_iter().map(|image| Some(Value::Image(image))).collect();

@@ -16,6 +16,7 @@ mod execute;
 mod files;
 mod finish;
 mod key;
+mod log;
 mod monitor;
 mod nodes;
 mod plan;
@@ -29,3 +30,4 @@ pub use cancel::Cancel;
 pub use engine::{
     ComputeOptions, Engine, EngineOptions, OutputShape, PixelsMut, ProgressFn, ProgressReport,
 };
+pub use log::{LogFn, LogLevel};

@@ -83,18 +83,18 @@ struct Strip<'a> {
 
 impl StageRows<'_> {
     /// Computes all rows into the root's images `stored` (none if it is not stored) and the sinks.
-    /// Returns how many numbers were not finite.
+    /// Returns how many numbers of each member were not finite.
     pub(super) fn run(
         &self,
         means: &Means<'_>,
         stored: &mut [Image],
         sinks: &mut [Sink<'_>],
-    ) -> Result<u64, MemberError> {
+    ) -> Result<Vec<u64>, MemberError> {
         let (width, height) = self.sizes.working();
         let rows = self.strip_rows(means);
         let count = height.div_ceil(rows);
         let strips = self.split(rows, count, stored, sinks);
-        let strange = AtomicU64::new(0);
+        let strange: Vec<AtomicU64> = self.members.iter().map(|_| AtomicU64::new(0)).collect();
         let culprit: Mutex<Option<(u32, usize)>> = Mutex::new(None);
         let buffers: Mutex<Vec<Buffers>> = Mutex::new(Vec::new());
         let progress: &dyn Progress = means.monitor;
@@ -106,26 +106,23 @@ impl StageRows<'_> {
                 None => Buffers::new(self, means, width)?,
             };
             let mut at = None;
-            let result = guard(|| self.run_strip(means, &mut strip, &mut own, &mut at));
-            match result {
-                Ok(count) => strange.fetch_add(count, Ordering::Relaxed),
-                Err(error) => {
-                    let mut culprit = culprit.lock().unwrap_or_else(PoisonError::into_inner);
-                    if let Some(member) = at
-                        && culprit.is_none_or(|(strip_before, _)| strip.first_row < strip_before)
-                    {
-                        *culprit = Some((strip.first_row, member));
-                    }
-                    return Err(error);
+            let result = guard(|| self.run_strip(means, &mut strip, &mut own, &mut at, &strange));
+            if let Err(error) = result {
+                let mut culprit = culprit.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some(member) = at
+                    && culprit.is_none_or(|(strip_before, _)| strip.first_row < strip_before)
+                {
+                    *culprit = Some((strip.first_row, member));
                 }
-            };
+                return Err(error);
+            }
             means.monitor.add_units(self.units * u64::from(strip.rows) / u64::from(height));
             buffers.lock().unwrap_or_else(PoisonError::into_inner).push(own);
             Ok(())
         });
         let culprit = culprit.into_inner().unwrap_or_else(PoisonError::into_inner);
         done.map_err(|error| (culprit.map(|(_, member)| member), error))?;
-        Ok(strange.into_inner())
+        Ok(strange.into_iter().map(AtomicU64::into_inner).collect())
     }
 
     /// Rows of a strip: a multiple of the supersampling, so that a result row has one maker.
@@ -181,9 +178,9 @@ impl StageRows<'_> {
         strip: &mut Strip<'_>,
         buffers: &mut Buffers,
         at: &mut Option<usize>,
-    ) -> Result<u64, Error> {
+        strange: &[AtomicU64],
+    ) -> Result<(), Error> {
         let (width, height) = self.sizes.working();
-        let mut strange = 0;
         for row in 0..strip.rows {
             means.monitor.check()?;
             let y = strip.first_row + row;
@@ -197,14 +194,17 @@ impl StageRows<'_> {
                     let is_root = number + 1 == self.members.len();
                     let target = (is_root && !strip.stored.is_empty())
                         .then_some((strip.stored.as_mut_slice(), offset));
-                    strange += self.run_member(means, member, number, &cx, len, buffers, target);
+                    let count = self.run_member(means, member, number, &cx, len, buffers, target);
+                    if count > 0 {
+                        strange[number].fetch_add(count, Ordering::Relaxed);
+                    }
                 }
                 *at = None;
                 x += u32::try_from(len).unwrap_or(u32::MAX);
             }
             self.hand_over(means, strip, buffers, row);
         }
-        Ok(strange)
+        Ok(())
     }
 
     /// Computes one member on one segment, into its buffers or into the stored planes.

@@ -1,8 +1,11 @@
 //! The engine on blocks made for it: each shape, several outputs, and blocks that misbehave.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{
+    Mutex,
+    atomic::{AtomicUsize, Ordering},
+};
 
-use super::{Cancel, ComputeOptions, Engine, EngineOptions, PixelsMut};
+use super::{Cancel, ComputeOptions, Engine, EngineOptions, LogLevel, PixelsMut};
 use crate::{
     block::{Family, prelude::*},
     graph::{BlockId, Graph},
@@ -333,8 +336,14 @@ fn strange_numbers_become_black() {
     let engine = engine(0);
     let (mut graph, ids) = graph(&engine, &[("bad", &[])]);
     graph.set_float(ids[0], "amount", 3.0).unwrap();
+    let told = Arc::new(Mutex::new(Vec::new()));
+    let messages = Arc::clone(&told);
+    let log = move |_, message: &str| messages.lock().unwrap().push(message.to_owned());
+    engine.set_log(Some((LogLevel::Info, Arc::new(log))));
     let image = engine.compute(&graph, ids[0], 0, ComputeOptions::default()).unwrap();
     assert!(image.channel(0).iter().all(|value| *value == 0.0));
+    let told = told.lock().unwrap();
+    assert!(told[0].starts_with("block 0 (bad): gave 117 numbers"), "{told:?}");
 }
 
 #[test]
