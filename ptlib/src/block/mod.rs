@@ -11,14 +11,18 @@
 //! Start reading at [`BlockSpec`], then [`prelude`], which is all that a block file sees.
 
 mod context;
+mod interpolation;
 mod registry;
 mod row;
 mod shapes;
 mod spec;
+#[cfg(test)]
+pub(crate) mod testing;
 
 pub mod prelude;
 
 pub use context::{Context, Files, PrepareContext, Progress, RowContext, WholeContext};
+pub use interpolation::Interpolation;
 pub(crate) use registry::nearest;
 pub use registry::{Family, Registry};
 pub use row::{InputRows, OutputRow, PortRow};

@@ -3,13 +3,13 @@
 pub use std::sync::Arc;
 
 pub use super::{
-    About, BlockSpec, Context, GatherBlock, InputRows, OutputRow, Planes, PointBlock,
-    PrepareContext, Role, RowContext, Tiling, WholeBlock, WholeContext, input, output,
+    About, BlockSpec, Context, GatherBlock, InputRows, Interpolation, OutputRow, Planes,
+    PointBlock, PrepareContext, Role, RowContext, Tiling, WholeBlock, WholeContext, input, output,
 };
 pub use crate::{
     choice,
     error::{Error, ErrorKind},
-    math::{convert, elementary, elias, levels, levels::Levels},
+    math::{convert, elementary, elias, levels, levels::Levels, simd::Kernel},
     params,
-    value::{Gradient, GradientStop, Image, Kind, Plane, Value},
+    value::{Axis, Gradient, GradientStop, Image, Kind, Plane, Resampling, Span, Value, box_sum},
 };

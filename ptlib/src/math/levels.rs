@@ -22,6 +22,10 @@ pub trait Levels: Copy + Send + Sync + 'static {
 
     /// A value 0..1 as it is stored: truncated to a level, or unchanged.
     fn store(value: f32) -> f32;
+
+    /// A level 0..255 as it is stored: truncated, or unchanged. For intermediate results that are
+    /// kept in levels, where [`store`](Self::store) would divide and multiply by 255 each time.
+    fn store_level(level: f32) -> f32;
 }
 
 /// Levels k/255.
@@ -36,12 +40,21 @@ pub struct Continuous;
 /// 2⁻¹⁵ of one; without this, a chain of identities would lose a level at each step.
 const TRUNCATION_SLACK: f32 = 1.0 / 1024.0;
 
+/// The same for numbers that were never divided by 255: interpolating between two levels in single
+/// precision errs by less than 2⁻¹⁵ of one.
+const LEVEL_SLACK: f32 = 1.0 / 16_384.0;
+
 impl Levels for EightBit {
     const EIGHT_BIT: bool = true;
 
     #[inline(always)]
     fn store(value: f32) -> f32 {
         from_level(to_level(value))
+    }
+
+    #[inline(always)]
+    fn store_level(level: f32) -> f32 {
+        (level + LEVEL_SLACK).trunc()
     }
 }
 
@@ -51,6 +64,11 @@ impl Levels for Continuous {
     #[inline(always)]
     fn store(value: f32) -> f32 {
         value
+    }
+
+    #[inline(always)]
+    fn store_level(level: f32) -> f32 {
+        level
     }
 }
 
@@ -89,5 +107,8 @@ mod tests {
         assert_eq!(to_level(127.99 / 255.0), 127.0);
         assert_eq!(to_level(-1.5 / 255.0), -1.0);
         assert_eq!(Continuous::store(0.5), 0.5);
+        assert_eq!(EightBit::store_level(99.999), 99.0);
+        assert_eq!(EightBit::store_level(100.0 - 2e-5), 100.0);
+        assert_eq!(Continuous::store_level(99.5), 99.5);
     }
 }

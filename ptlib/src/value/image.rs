@@ -131,6 +131,16 @@ impl Image {
         Ok(Self { planes: changed, ..self })
     }
 
+    /// The image with three planes or more: a grey one gives its plane as red, green and blue.
+    #[must_use]
+    pub fn into_colour(mut self) -> Self {
+        if self.is_grey() {
+            let grey = Arc::clone(&self.planes[0]);
+            self.planes.resize(3, grey);
+        }
+        self
+    }
+
     /// The memory of the planes in bytes.
     #[must_use]
     pub fn bytes(&self) -> u64 {
@@ -156,5 +166,8 @@ mod tests {
         assert_eq!(image.channel(2), image.channel(0));
         assert_eq!(image.row(1, 1), &[0.5, 1.0]);
         assert_eq!(image.bytes(), 16);
+        let colour = image.clone().into_colour();
+        assert_eq!((colour.planes(), colour.row(2, 1)), (3, image.row(0, 1)));
+        assert_eq!(colour.channel(0).as_ptr(), colour.channel(2).as_ptr());
     }
 }

@@ -4,14 +4,17 @@
 //! (points, meshes, strands, volumes) join [`Kind`] and [`Value`] here, and nothing elsewhere may
 //! assume that a wire is an image.
 
+pub mod box_sum;
 mod gradient;
 mod image;
 mod kind;
 mod pixels;
 mod plane;
+mod resample;
 
 pub use gradient::{Gradient, GradientStop};
 pub use image::{Image, MAX_PLANES};
 pub use kind::{Kind, Value};
 pub use pixels::{Format, Pixels};
 pub use plane::{BufferPool, Plane};
+pub use resample::{Axis, Interpolation, Resampling, Span};

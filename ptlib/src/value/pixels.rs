@@ -137,7 +137,7 @@ impl Image {
     }
 
     /// Writes row `y` in `format`; `out` has W · [`Format::bytes_per_pixel`] bytes.
-    pub(crate) fn write_row(&self, y: u32, format: Format, out: &mut [u8]) {
+    pub fn write_row(&self, y: u32, format: Format, out: &mut [u8]) {
         let mut rows: [&[f32]; super::MAX_PLANES] = [&[]; super::MAX_PLANES];
         for (channel, row) in rows.iter_mut().enumerate().take(self.planes()) {
             *row = self.row(channel, y);

@@ -1,0 +1,278 @@
+//! For the tests of blocks: computes one block by itself, as the engine would.
+
+use std::sync::Arc;
+
+use super::{Access, BlockSpec, Context, Files, Implementation, InputRows, OutputRow, Planes};
+use super::{PortRow, Progress, RowContext};
+use crate::{
+    error::{Error, ErrorKind},
+    math::{
+        levels::{EightBit, Levels, Precision},
+        simd::SimdLevel,
+    },
+    params::ParamValue,
+    value::{BufferPool, Image, MAX_PLANES, Value},
+};
+
+/// One computation of one block: `Trial::of(&BLOCK).size(8, 4).int("amplitude", 3).image()`.
+/// Starts from the block's defaults, 64 × 64 pixels, seed 0, float precision.
+#[derive(Clone)]
+pub(crate) struct Trial {
+    spec: &'static BlockSpec,
+    values: Vec<ParamValue>,
+    inputs: Vec<Option<Value>>,
+    width: u32,
+    height: u32,
+    seed: u64,
+    precision: Precision,
+    simd: SimdLevel,
+    piece: usize,
+}
+
+impl Trial {
+    pub(crate) fn of(spec: &'static BlockSpec) -> Self {
+        Self {
+            spec,
+            values: spec.params.iter().map(crate::params::ParamSpec::default_value).collect(),
+            inputs: vec![None; spec.about.inputs.len()],
+            width: 64,
+            height: 64,
+            seed: 0,
+            precision: Precision::Float,
+            simd: SimdLevel::best(),
+            piece: usize::MAX,
+        }
+    }
+
+    pub(crate) fn size(mut self, width: u32, height: u32) -> Self {
+        (self.width, self.height) = (width, height);
+        self
+    }
+
+    pub(crate) fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Computes in levels k/255.
+    pub(crate) fn eight_bit(mut self) -> Self {
+        self.precision = Precision::EightBit;
+        self
+    }
+
+    pub(crate) fn simd(mut self, simd: SimdLevel) -> Self {
+        self.simd = simd;
+        self
+    }
+
+    /// Asks for rows in pieces of that many pixels.
+    pub(crate) fn pieces(mut self, piece: usize) -> Self {
+        self.piece = piece;
+        self
+    }
+
+    pub(crate) fn input(mut self, port: usize, value: impl Into<Value>) -> Self {
+        self.inputs[port] = Some(value.into());
+        self
+    }
+
+    pub(crate) fn int(self, id: &str, value: i32) -> Self {
+        self.set(id, ParamValue::Int(value))
+    }
+
+    pub(crate) fn float(self, id: &str, value: f64) -> Self {
+        self.set(id, ParamValue::Float(value))
+    }
+
+    pub(crate) fn flag(self, id: &str, value: bool) -> Self {
+        self.set(id, ParamValue::Bool(value))
+    }
+
+    pub(crate) fn choice(self, id: &str, number: u32) -> Self {
+        self.set(id, ParamValue::Choice(number))
+    }
+
+    pub(crate) fn text(self, id: &str, value: &str) -> Self {
+        self.set(id, ParamValue::Text(value.into()))
+    }
+
+    fn set(mut self, id: &str, value: ParamValue) -> Self {
+        let (place, spec) = self.spec.param(id).expect("the block has that parameter");
+        spec.check(&value).expect("the parameter allows that value");
+        self.values[place] = value;
+        self
+    }
+
+    /// The block's first output, an image.
+    pub(crate) fn image(&self) -> Image {
+        match self.compute().expect("the block computes").swap_remove(0) {
+            Value::Image(image) => image,
+            other => panic!("gives a {}", other.kind().name()),
+        }
+    }
+
+    /// The levels 0..255 of a channel of the block's first output, in 8-bit precision.
+    pub(crate) fn levels(&self, channel: usize) -> Vec<u8> {
+        let image = self.clone().eight_bit().image();
+        image.channel(channel).iter().map(|value| crate::math::convert::to_byte(*value)).collect()
+    }
+
+    /// Fails unless the block gives the same bits at every SIMD level and for rows in odd pieces.
+    pub(crate) fn assert_same_bits(&self) {
+        let expected = self.image();
+        for simd in SimdLevel::available() {
+            for piece in [usize::MAX, 1, 7, 16] {
+                let image = self.clone().simd(simd).pieces(piece).image();
+                for channel in 0..expected.planes() {
+                    let pairs = image.channel(channel).iter().zip(expected.channel(channel));
+                    for (i, (value, expected)) in pairs.enumerate() {
+                        let place = (i % self.width as usize, i / self.width as usize);
+                        let how = (simd.name(), piece);
+                        assert_eq!(value.to_bits(), expected.to_bits(), "{place:?} {how:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// All outputs of the block.
+    pub(crate) fn compute(&self) -> Result<Vec<Value>, Error> {
+        let pool = BufferPool::new();
+        let whole_inputs: Vec<_> = (0..self.inputs.len()).map(|port| self.whole(port)).collect();
+        let context = Context {
+            width: self.width,
+            height: self.height,
+            seed: self.seed,
+            simd: self.simd,
+            inputs: &whole_inputs,
+            pool: &pool,
+            files: &NoFiles,
+            progress: &Alone,
+        };
+        let mut values = match self.spec.implementation {
+            Implementation::Whole(factory) => {
+                factory.compute(&self.values, self.precision, &context)?
+            }
+            Implementation::Rows(_) => vec![Value::Image(self.rows(&context)?)],
+        };
+        for (value, port) in values.iter_mut().zip(self.spec.about.outputs) {
+            if let (Value::Image(image), false) = (value, port.is_free) {
+                image.planes_mut().flatten().for_each(|value| *value = self.stored(*value));
+            }
+        }
+        Ok(values)
+    }
+
+    /// The input as `prepare` and `compute` see it.
+    fn whole(&self, port: usize) -> Option<Value> {
+        let value = self.inputs[port].clone()?;
+        let is_row = matches!(value, Value::Image(_)) && self.spec.access(port) == Access::SameRow;
+        if is_row { None } else { Some(value) }
+    }
+
+    fn rows(&self, context: &Context<'_>) -> Result<Image, Error> {
+        let Implementation::Rows(factory) = self.spec.implementation else {
+            unreachable!("called for blocks that write rows")
+        };
+        let kernel = factory.prepare(&self.values, self.precision, context)?;
+        let mut image = context.new_image(self.planes()?)?;
+        let width = self.width as usize;
+        let mut planes: Vec<&mut [f32]> = image.planes_mut().collect();
+        for y in 0..self.height {
+            for x in (0..width).step_by(self.piece.min(width)) {
+                let len = self.piece.min(width - x);
+                let ports: Vec<_> =
+                    (0..self.inputs.len()).map(|i| self.row(i, x, y, len)).collect();
+                let out = planes.iter_mut().map(|plane| {
+                    let start = y as usize * width + x;
+                    &mut plane[start..start + len]
+                });
+                let x = u32::try_from(x).expect("a column of an image");
+                let place = RowContext { x, y, width: self.width, height: self.height };
+                kernel.row(&place, &InputRows::new(&ports), &mut OutputRow::new(out));
+            }
+        }
+        Ok(image)
+    }
+
+    fn row(&self, port: usize, x: usize, y: u32, len: usize) -> PortRow<'_> {
+        match &self.inputs[port] {
+            Some(Value::Image(image)) if self.spec.access(port) == Access::SameRow => {
+                PortRow::new((0..image.planes()).map(|plane| &image.row(plane, y)[x..x + len]))
+            }
+            _ => PortRow::default(),
+        }
+    }
+
+    fn planes(&self) -> Result<usize, Error> {
+        let of = |port: &usize| match &self.inputs[*port] {
+            Some(Value::Image(image)) => image.planes(),
+            _ => 1,
+        };
+        Ok(match self.spec.about.outputs[0].planes {
+            Planes::Grey => 1,
+            Planes::Colour => 3,
+            Planes::As(port) => of(&port),
+            Planes::Most(ports) => ports.iter().map(of).max().unwrap_or(1).min(MAX_PLANES),
+            Planes::ByParameters => {
+                if self.spec.implementation.is_grey(&self.values)? {
+                    1
+                } else {
+                    3
+                }
+            }
+        })
+    }
+
+    fn stored(&self, value: f32) -> f32 {
+        let value = if value.is_finite() { value.clamp(0.0, 1.0) } else { 0.0 };
+        match self.precision {
+            Precision::EightBit => EightBit::store(value),
+            Precision::Float => value,
+        }
+    }
+}
+
+/// An image of `width` columns whose planes hold these levels 0..255, row by row.
+pub(crate) fn image_of_levels(width: u32, planes: &[&[u8]]) -> Image {
+    let height = u32::try_from(planes[0].len()).expect("a small image") / width;
+    let mut image = Image::new(&BufferPool::new(), width, height, planes.len()).expect("memory");
+    for (plane, levels) in image.planes_mut().zip(planes) {
+        for (value, level) in plane.iter_mut().zip(*levels) {
+            *value = f32::from(*level) / 255.0;
+        }
+    }
+    image
+}
+
+struct NoFiles;
+
+impl Files for NoFiles {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, Error> {
+        Err(Error::new(ErrorKind::Denied, format!("a trial reads no file, not \"{path}\"")))
+    }
+
+    fn read_image(&self, path: &str, _: &Arc<BufferPool>) -> Result<Image, Error> {
+        Err(Error::new(ErrorKind::Denied, format!("a trial reads no file, not \"{path}\"")))
+    }
+}
+
+/// The calling thread by itself, never cancelled.
+struct Alone;
+
+impl Progress for Alone {
+    fn check(&self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn parallel(
+        &self,
+        count: usize,
+        task: &(dyn Fn(usize) -> Result<(), Error> + Sync),
+    ) -> Result<(), Error> {
+        // Backwards: no task may need an earlier one.
+        (0..count).rev().try_for_each(task)
+    }
+
+    fn report(&self, _: f64) {}
+}
