@@ -78,8 +78,9 @@ impl Graph {
     pub(crate) fn insert(&mut self, block: Block) -> BlockId {
         let data = Arc::make_mut(&mut self.data);
         let block = Some(Arc::new(block));
-        let free = data.slots.iter().position(|slot| slot.block.is_none());
-        let place = match free {
+        let has_free = data.order.len() < data.slots.len();
+        let free = has_free.then(|| data.slots.iter().position(|slot| slot.block.is_none()));
+        let place = match free.flatten() {
             Some(place) => {
                 let slot = &mut data.slots[place];
                 slot.generation = slot.generation.wrapping_add(1);
@@ -94,6 +95,11 @@ impl Graph {
         let index = u32::try_from(place).expect("a graph has fewer than 2³² blocks");
         data.order.push(index);
         BlockId { index, generation: data.slots[place].generation }
+    }
+
+    /// Remembers which version of the file format the graph was read from.
+    pub(crate) fn set_file_version(&mut self, version: Option<u32>) {
+        Arc::make_mut(&mut self.data).file_version = version;
     }
 
     pub(crate) fn set_extra_attributes(&mut self, attributes: Vec<(String, String)>) {
@@ -150,26 +156,53 @@ impl Graph {
         target: BlockId,
         input: u32,
     ) -> Result<(), Error> {
+        self.check_source(source, target)?;
+        if self.depends_on(source.block, target) {
+            return Err(self.cycle(source, target, input));
+        }
+        self.put_source(source, target, input)
+    }
+
+    /// Whether anybody may read a source: nobody reads what ends a graph.
+    pub(super) fn check_source(&self, source: Source, target: BlockId) -> Result<(), Error> {
         let from = self.block(source.block)?;
         let to = self.block(target)?;
         if from.spec.is_some_and(|spec| spec.about.role != Role::Inner) {
             let message = format!("ends the graph: {} cannot read it", name(to));
             return Err(self.at(source.block, Error::new(ErrorKind::TypeMismatch, message)));
         }
-        if self.depends_on(source.block, target) {
-            let message = format!(
-                "connecting {} to input {input} of {} would close a cycle",
-                name(from),
-                name(to)
-            );
-            return Err(self.at(target, Error::new(ErrorKind::Cycle, message)));
-        }
+        Ok(())
+    }
+
+    /// The error of a connection that would close a cycle.
+    pub(super) fn cycle(&self, source: Source, target: BlockId, input: u32) -> Error {
+        let (from, to) = match (self.block(source.block), self.block(target)) {
+            (Ok(from), Ok(to)) => (name(from), name(to)),
+            (Err(error), _) | (_, Err(error)) => return error,
+        };
+        let message = format!("connecting {from} to input {input} of {to} would close a cycle");
+        self.at(target, Error::new(ErrorKind::Cycle, message))
+    }
+
+    /// Stores a connection that was checked.
+    pub(super) fn put_source(
+        &mut self,
+        source: Source,
+        target: BlockId,
+        input: u32,
+    ) -> Result<(), Error> {
         let place = input as usize;
         let inputs = &mut self.block_mut(target)?.inputs;
         if place >= inputs.len() {
             inputs.resize(place + 1, None);
         }
         inputs[place] = Some(source);
+        Ok(())
+    }
+
+    /// Gives a block another id in its graph's file, one that no other block has.
+    pub(crate) fn set_file_id(&mut self, id: BlockId, file_id: String) -> Result<(), Error> {
+        self.block_mut(id)?.id = file_id;
         Ok(())
     }
 
@@ -317,10 +350,17 @@ impl Graph {
         false
     }
 
-    /// The smallest whole number that is no block's file id.
+    /// A whole number that is no block's file id.
     fn unused_id(&self) -> String {
         let numbers = self.blocks().filter_map(|(_, block)| block.id.parse::<u64>().ok());
-        numbers.max().map_or(0, |max| max.saturating_add(1)).to_string()
+        match numbers.max().map(|max| max.checked_add(1)) {
+            None => "0".to_owned(),
+            Some(Some(next)) => next.to_string(),
+            Some(None) => {
+                let unused = (0_u64..).find(|number| self.find(&number.to_string()).is_none());
+                unused.expect("a graph has fewer than 2⁶⁴ blocks").to_string()
+            }
+        }
     }
 }
 

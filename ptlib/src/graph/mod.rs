@@ -9,7 +9,9 @@
 //! Start reading at [`Graph`]; [`Block`] is what it holds.
 
 mod check;
+mod connector;
 mod edit;
 mod model;
 
+pub(crate) use connector::Connector;
 pub use model::{Block, BlockId, Connection, Graph, RawParameter, Settings, Source};

@@ -155,6 +155,9 @@ pub struct Settings {
 impl Settings {
     /// The most supersampling.
     pub const MAX_SUPERSAMPLING: u32 = 6;
+
+    /// The version of the file format that this library writes, and the newest that it reads.
+    pub const FILE_VERSION: u32 = 1;
 }
 
 impl Default for Settings {
@@ -170,14 +173,29 @@ pub struct Graph {
     pub(super) data: Arc<Data>,
 }
 
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub(super) struct Data {
+    /// The version of the file format that it was read from; `None` for a file of PT Designer.
+    pub(super) file_version: Option<u32>,
     pub(super) settings: Settings,
     pub(super) extra_attributes: Vec<(String, String)>,
     pub(super) folder: Option<PathBuf>,
     pub(super) slots: Vec<Slot>,
     /// Indices of the blocks in file order.
     pub(super) order: Vec<u32>,
+}
+
+impl Default for Data {
+    fn default() -> Self {
+        Self {
+            file_version: Some(Settings::FILE_VERSION),
+            settings: Settings::default(),
+            extra_attributes: Vec::new(),
+            folder: None,
+            slots: Vec::new(),
+            order: Vec::new(),
+        }
+    }
 }
 
 #[derive(Clone)]
@@ -211,6 +229,13 @@ impl Graph {
     #[must_use]
     pub fn folder(&self) -> Option<&Path> {
         self.data.folder.as_deref()
+    }
+
+    /// The version of the file format that it was read from; `None` for a file of PT Designer,
+    /// [`Settings::FILE_VERSION`] for a new graph.
+    #[must_use]
+    pub fn file_version(&self) -> Option<u32> {
+        self.data.file_version
     }
 
     /// Attributes that its file gave the graph and this version does not know.

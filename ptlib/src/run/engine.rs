@@ -155,7 +155,11 @@ pub struct PixelsMut<'a> {
 
 impl PixelsMut<'_> {
     /// Whether an image of that size fits.
-    fn check(&self, width: u32, height: u32) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidArgument`] if the rows are too short for it,
+    /// [`ErrorKind::BufferTooSmall`].
+    pub fn check(&self, width: u32, height: u32) -> Result<(), Error> {
         let row = width as usize * self.format.bytes_per_pixel();
         if self.stride < row {
             let message = format!("rows of {} bytes are given, {row} needed", self.stride);
@@ -229,8 +233,8 @@ impl Engine {
     /// Reads a graph file's contents.
     ///
     /// # Errors
-    /// [`ErrorKind::Parse`](crate::ErrorKind::Parse) with all faults of the file, each with its
-    /// line and column; [`ErrorKind::Limit`](crate::ErrorKind::Limit).
+    /// [`ErrorKind::Parse`] with all faults of the file, each with its
+    /// line and column; [`ErrorKind::Limit`].
     pub fn read_graph(&self, xml: &[u8]) -> Result<Reading, Error> {
         io::read_graph(xml, &self.0.registry, self.limits())
     }
@@ -238,7 +242,7 @@ impl Engine {
     /// Reads a graph file. Its blocks may read files below its folder.
     ///
     /// # Errors
-    /// As [`read_graph`](Self::read_graph), and [`ErrorKind::Io`](crate::ErrorKind::Io).
+    /// As [`read_graph`](Self::read_graph), and [`ErrorKind::Io`].
     pub fn open_graph(&self, path: &Path) -> Result<Reading, Error> {
         let mut reading = self.read_graph(&io::read_limited(path, self.limits().file_bytes)?)?;
         reading.graph.set_folder(path.parent().map(Path::to_path_buf));
@@ -249,8 +253,8 @@ impl Engine {
     ///
     /// # Errors
     /// What is wrong with the graph, what a block says,
-    /// [`ErrorKind::Limit`](crate::ErrorKind::Limit) before anything is computed if it would take
-    /// too much memory, [`ErrorKind::Cancelled`](crate::ErrorKind::Cancelled).
+    /// [`ErrorKind::Limit`] before anything is computed if it would take
+    /// too much memory, [`ErrorKind::Cancelled`].
     pub fn compute(
         &self,
         graph: &Graph,
@@ -286,7 +290,7 @@ impl Engine {
     ///
     /// # Errors
     /// As [`compute`](Self::compute), and
-    /// [`ErrorKind::BufferTooSmall`](crate::ErrorKind::BufferTooSmall).
+    /// [`ErrorKind::BufferTooSmall`].
     pub fn compute_into(
         &self,
         graph: &Graph,
@@ -302,7 +306,7 @@ impl Engine {
     /// blocks write where the engine's options allow it.
     ///
     /// # Errors
-    /// As [`compute`](Self::compute), and [`ErrorKind::Denied`](crate::ErrorKind::Denied).
+    /// As [`compute`](Self::compute), and [`ErrorKind::Denied`].
     pub fn compute_all(
         &self,
         graph: &Graph,
@@ -418,7 +422,7 @@ impl Inner {
             folder: graph.folder().map(Path::to_path_buf),
             read_folders: self.options.read_folders.clone(),
             write_folders: self.options.write_folders.clone(),
-            read_bytes: self.options.limits.read_bytes,
+            limits: self.options.limits,
         })
     }
 

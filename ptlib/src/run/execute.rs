@@ -39,6 +39,13 @@ pub(super) struct Means<'a> {
     pub(super) strip_rows: u32,
 }
 
+impl Means<'_> {
+    /// Logs a fault that a white image stands for.
+    fn tell_white(&self, fault: &Error) {
+        self.log.tell(LogLevel::Warning, &format!("went on with white: {fault}"));
+    }
+}
+
 /// The values of all nodes while a plan is carried out, and what went wrong on the way.
 pub(super) struct Execution<'a, 'g> {
     plan: &'a Plan<'g>,
@@ -56,6 +63,9 @@ impl<'a, 'g> Execution<'a, 'g> {
             _ => vec![None; node.outputs.len()],
         });
         let values = values.collect();
+        for failure in &failures {
+            means.tell_white(failure);
+        }
         Self { plan, means, values, failures }
     }
 
@@ -143,7 +153,7 @@ impl<'a, 'g> Execution<'a, 'g> {
         if !self.means.keep_going || error.kind() == ErrorKind::Cancelled {
             return Err(error);
         }
-        self.means.log.tell(LogLevel::Warning, &format!("went on with white: {error}"));
+        self.means.tell_white(&error);
         self.failures.push(error);
         Ok(())
     }

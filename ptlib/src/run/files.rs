@@ -42,6 +42,6 @@ impl Files for GraphFiles {
     }
 
     fn read_image(&self, path: &str, pool: &Arc<BufferPool>) -> Result<Image, Error> {
-        self.access.read_image(path, pool)
+        self.access.decode(path, &self.read(path)?, pool)
     }
 }

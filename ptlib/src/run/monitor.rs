@@ -5,7 +5,6 @@ use std::{
         Mutex, PoisonError,
         atomic::{AtomicBool, AtomicU64, Ordering},
     },
-    thread::ThreadId,
     time::{Duration, Instant},
 };
 
@@ -32,7 +31,7 @@ pub(super) struct Monitor<'a> {
 
 struct Teller<'a> {
     /// The only thread that calls `tell`.
-    owner: ThreadId,
+    owner: usize,
     interval: Duration,
     state: Mutex<TellerState<'a>>,
 }
@@ -45,6 +44,14 @@ struct TellerState<'a> {
     stage_units: u64,
 }
 
+/// A number that no other living thread has: the address of something of its own. (The standard
+/// library's thread ids allocate on threads that it did not make, and on the main thread of a
+/// foreign program nobody frees that.)
+fn this_thread() -> usize {
+    thread_local!(static OWN: u8 = const { 0 });
+    OWN.with(|own| std::ptr::from_ref(own).addr())
+}
+
 impl<'a> Monitor<'a> {
     /// A monitor that tells `tell`, called by the thread that makes it.
     pub(super) fn new(
@@ -55,7 +62,7 @@ impl<'a> Monitor<'a> {
         tell: Option<(&'a mut ProgressFn<'a>, Duration, BlockId)>,
     ) -> Self {
         let teller = tell.map(|(tell, interval, block)| Teller {
-            owner: std::thread::current().id(),
+            owner: this_thread(),
             interval,
             state: Mutex::new(TellerState {
                 tell,
@@ -109,7 +116,7 @@ impl<'a> Monitor<'a> {
     fn tell(&self, is_end: bool) {
         let Some(teller) = &self.teller else { return };
         let has_stopped = self.is_stopped.load(Ordering::Relaxed);
-        if has_stopped || std::thread::current().id() != teller.owner {
+        if has_stopped || this_thread() != teller.owner {
             return;
         }
         // The callback may compute another graph on this thread, but not this one: the lock is

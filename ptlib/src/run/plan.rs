@@ -111,7 +111,7 @@ impl<'g> Plan<'g> {
             limit / mebibyte
         );
         Err(Error::new(ErrorKind::Limit, message)
-            .with_hint("ask for a smaller size, or allow more memory"))
+            .with_hint("ask for a smaller size, or allow more memory (`ptc render --memory SIZE`)"))
     }
 
     fn take_from_cache(&mut self, cache: &Cache) {
