@@ -4,6 +4,7 @@
 mod conformance;
 mod frozen;
 mod golden;
+mod hostile;
 mod laws;
 mod picture;
 mod specimen;
