@@ -1,9 +1,14 @@
 //! The built-in blocks, by family: one file a block.
 
 mod adjust;
+mod color;
 mod results;
 
 use crate::block::Family;
 
 /// Every family of built-in blocks.
-pub static FAMILIES: &[&Family] = &[&adjust::FAMILY, &results::FAMILY];
+pub static FAMILIES: &[&Family] = &[
+    &adjust::FAMILY,
+    &color::FAMILY,
+    &results::FAMILY,
+];
