@@ -2,6 +2,7 @@
 
 mod adjust;
 mod color;
+mod noise;
 mod results;
 
 use crate::block::Family;
@@ -10,5 +11,6 @@ use crate::block::Family;
 pub static FAMILIES: &[&Family] = &[
     &adjust::FAMILY,
     &color::FAMILY,
+    &noise::FAMILY,
     &results::FAMILY,
 ];

@@ -1,0 +1,6 @@
+//! Blocks that make a pattern from nothing.
+
+crate::family!("noise": bump_noise, perlin_noise, simple_noise, voronoi_diagram);
+
+mod lattice;
+mod voronoi;

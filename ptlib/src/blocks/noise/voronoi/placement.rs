@@ -1,0 +1,235 @@
+//! Where the points of a Voronoi diagram lie (specification 2.1, "Points").
+
+use std::collections::HashSet;
+
+use crate::block::prelude::*;
+
+/// The most points of a custom placement.
+pub(in crate::blocks::noise) const MAX_CUSTOM: usize = 255;
+
+/// The most memory of the placement of `points` points, in bytes.
+pub(in crate::blocks::noise) fn bytes_of(points: u64) -> u64 {
+    // The points, and the set of places that are taken at its lowest load.
+    points * 40
+}
+
+/// What placements are made from.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::blocks::noise) struct Layout {
+    /// Size of the image.
+    pub(in crate::blocks::noise) width: u32,
+    /// Size of the image.
+    pub(in crate::blocks::noise) height: u32,
+    /// The length that the user gave, in pixels.
+    pub(in crate::blocks::noise) length: i64,
+    /// The number of points that the user gave.
+    pub(in crate::blocks::noise) count: i64,
+}
+
+type Places = Vec<(u32, u32)>;
+
+impl Layout {
+    fn wrapped(&self, x: i64, y: i64) -> (u32, u32) {
+        (convert::wrap(x, self.width), convert::wrap(y, self.height))
+    }
+
+    fn middle(&self) -> (i64, i64) {
+        (i64::from(self.width / 2), i64::from(self.height / 2))
+    }
+
+    /// Places that all differ.
+    pub(in crate::blocks::noise) fn random(&self, cx: &Context<'_>) -> Result<Places, Error> {
+        let count = convert::index(self.count).min(self.width as usize * self.height as usize);
+        let mut taken = HashSet::with_capacity(count);
+        let mut places = Vec::with_capacity(count);
+        let mut seed = cx.seed32();
+        // A hash need not reach every pixel of a small image, so there is an end to trying.
+        let mut tries = 16 * count + 4096;
+        for i in (0_i32..).take(count) {
+            cx.check()?;
+            loop {
+                let x = elias::noise64(i.wrapping_add(seed.wrapping_mul(2))).abs();
+                let y = elias::noise64(i.wrapping_mul(10).wrapping_add(seed)).abs();
+                let x = convert::truncate64(x * f64::from(self.width));
+                let y = convert::truncate64(y * f64::from(self.height));
+                let place = self.wrapped(x, y);
+                if taken.insert(place) {
+                    places.push(place);
+                    break;
+                }
+                if tries == 0 {
+                    return Ok(places);
+                }
+                tries -= 1;
+                // The next seed stays for the points that follow (specification, appendix A).
+                seed = seed.wrapping_add(1);
+            }
+        }
+        Ok(places)
+    }
+
+    /// Along the sides of a square around the middle.
+    pub(in crate::blocks::noise) fn square(&self) -> Places {
+        let steps = self.count.max(2) - 1;
+        let (x, y) = self.middle();
+        let half = self.length / 2;
+        let (left, right, top, bottom) = (x - half, x + half, y - half, y + half);
+        let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+        let between = (1..steps).flat_map(|i| {
+            let along = i * self.length / steps;
+            [
+                (left + along, top),
+                (right, top + along),
+                (right - along, bottom),
+                (left, bottom - along),
+            ]
+        });
+        corners.into_iter().chain(between).map(|(x, y)| self.wrapped(x, y)).collect()
+    }
+
+    /// Along a circle around the middle, counter-clockwise from the right.
+    pub(in crate::blocks::noise) fn circle(&self) -> Places {
+        let (x, y) = self.middle();
+        let count = self.count.max(0);
+        let place = |i: i64| {
+            // The quarter of the turn, and the rest of the way into it.
+            let (quarter, rest) = (4 * i / count, 4 * i % count);
+            #[expect(clippy::cast_precision_loss, reason = "lengths and counts below 2⁵³")]
+            let (radius, part) = (self.length as f64, rest as f64 / count as f64);
+            let b = (radius * elementary::sin64(part * std::f64::consts::FRAC_PI_2)).trunc();
+            let a = convert::truncate64((radius * radius - b * b).sqrt());
+            let b = convert::truncate64(b);
+            let (across, down) = match quarter {
+                0 => (a, -b),
+                1 => (-b, -a),
+                2 => (-a, b),
+                _ => (b, a),
+            };
+            self.wrapped(x + across, y + down)
+        };
+        (0..count).map(place).collect()
+    }
+
+    /// Along horizontal and vertical arms from the middle.
+    pub(in crate::blocks::noise) fn horizontal_cross(&self) -> Places {
+        let steps = self.count.max(2) - 1;
+        let step = self.length / steps;
+        self.cross(|i| step * i, [(-1, 0), (1, 0), (0, 1), (0, -1)])
+    }
+
+    /// Along diagonal arms from the middle.
+    pub(in crate::blocks::noise) fn diagonal_cross(&self) -> Places {
+        let steps = self.count.max(2) - 1;
+        let step = self.length / steps;
+        #[expect(clippy::cast_precision_loss, reason = "lengths below 2⁵³")]
+        let step = ((step * step / 2) as f64).sqrt();
+        #[expect(clippy::cast_precision_loss, reason = "counts below 2⁵³")]
+        let along = |i: i64| convert::truncate64(step * i as f64);
+        self.cross(along, [(-1, -1), (1, 1), (-1, 1), (1, -1)])
+    }
+
+    fn cross(&self, along: impl Fn(i64) -> i64, arms: [(i64, i64); 4]) -> Places {
+        let (x, y) = self.middle();
+        let mut places = vec![self.wrapped(x, y)];
+        for i in 1..self.count.max(2) {
+            let along = along(i);
+            places.extend(
+                arms.map(|(right, down)| self.wrapped(x + right * along, y + down * along)),
+            );
+        }
+        places
+    }
+
+    /// Where a list `x:y,x:y,…` says. The separators may be any characters; the list ends where
+    /// it stops making sense.
+    pub(in crate::blocks::noise) fn custom(&self, mut list: &str) -> Places {
+        let mut places = Vec::new();
+        while places.len() < MAX_CUSTOM {
+            let Some((x, rest)) = decimal(list) else { break };
+            let Some((y, rest)) = decimal(after_separator(rest)) else { break };
+            list = after_separator(rest);
+            let x = convert::truncate64(x * f64::from(self.width - 1));
+            let y = convert::truncate64(y * f64::from(self.height - 1));
+            places.push(self.wrapped(x, y));
+        }
+        places
+    }
+}
+
+/// What follows the first character that is not blank.
+fn after_separator(text: &str) -> &str {
+    let mut rest = text.trim_start().chars();
+    rest.next();
+    rest.as_str()
+}
+
+/// The decimal number that `text` begins with, after blanks, and what follows it.
+fn decimal(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim_start();
+    let digits = |from: usize| from + text[from..].bytes().take_while(u8::is_ascii_digit).count();
+    let sign = usize::from(text.starts_with(['+', '-']));
+    let mut end = digits(sign);
+    if text[end..].starts_with('.') {
+        end = digits(end + 1);
+    }
+    if let Some(rest) = text[end..].strip_prefix(['e', 'E']) {
+        let start = end + 1 + usize::from(rest.starts_with(['+', '-']));
+        if digits(start) > start {
+            end = digits(start);
+        }
+    }
+    Some((text[..end].parse().ok()?, &text[end..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAYOUT: Layout = Layout { width: 100, height: 60, length: 20, count: 3 };
+
+    #[test]
+    fn a_square_has_points_on_each_side() {
+        let corners = [(40, 20), (60, 20), (60, 40), (40, 40)];
+        let halfway = [(50, 20), (60, 30), (50, 40), (40, 30)];
+        assert_eq!(LAYOUT.square(), [corners, halfway].concat());
+        assert_eq!(Layout { count: 0, ..LAYOUT }.square(), corners);
+    }
+
+    #[test]
+    fn a_circle_has_its_points_at_equal_angles() {
+        let circle = Layout { count: 4, ..LAYOUT }.circle();
+        assert_eq!(circle, [(70, 30), (50, 10), (30, 30), (50, 50)]);
+        // 60°: b = ⌊20 · sin 60°⌋ = 17, a = ⌊√(20² - 17²)⌋ = 10.
+        assert_eq!(Layout { count: 6, ..LAYOUT }.circle()[1], (60, 13));
+        assert!(Layout { count: 0, ..LAYOUT }.circle().is_empty());
+    }
+
+    #[test]
+    fn crosses_have_four_arms() {
+        let arms = [(40, 30), (60, 30), (50, 40), (50, 20)];
+        let cross = LAYOUT.horizontal_cross();
+        assert_eq!((cross[0], &cross[1..5], cross.len()), ((50, 30), &arms[..], 9));
+        // The step is √⌊10²/2⌋ = 7.07.
+        let cross = LAYOUT.diagonal_cross();
+        assert_eq!(cross[1..5], [(43, 23), (57, 37), (43, 37), (57, 23)]);
+        assert_eq!(cross[5..], [(36, 16), (64, 44), (36, 44), (64, 16)]);
+    }
+
+    #[test]
+    fn points_beyond_the_edges_come_back_on_the_other_side() {
+        let cross = Layout { length: 70, count: 2, ..LAYOUT }.horizontal_cross();
+        assert_eq!(cross[1..], [(80, 30), (20, 30), (50, 40), (50, 20)]);
+    }
+
+    #[test]
+    fn custom_points_are_read_leniently() {
+        let places = |list| LAYOUT.custom(list);
+        assert_eq!(places("0:0,1:1,0.5:0.5,"), [(0, 0), (99, 59), (49, 29)]);
+        assert_eq!(places(" .5 ; 5e-1 / -1:2"), [(49, 29), (1, 58)]);
+        assert_eq!(places(""), []);
+        assert_eq!(places("0.5"), []);
+        assert_eq!(places("0:0,x:1"), [(0, 0)]);
+        assert_eq!(places("0:0é1:é"), [(0, 0)]);
+        assert_eq!(places(&"0:0,".repeat(300)).len(), MAX_CUSTOM);
+    }
+}

@@ -1,0 +1,318 @@
+//! Cells around points: distances to the nearest ones, or one shade a cell.
+//!
+//! Specification 2.1. Distances wrap around, so the diagram tiles wherever its points lie. Where
+//! they lie is [`placement`]'s business; [`Cells`] finds the few that matter for a pixel.
+
+use super::voronoi::{
+    Cells, Chebyshev, Euclidean, Measure, Point, Taxicab,
+    placement::{self, Layout},
+};
+use crate::block::prelude::*;
+
+/// The text of an L-system.
+const TEXT: usize = 0;
+
+choice! {
+    /// What a pixel shows.
+    Shows {
+        /// The distance to the nearest point; white from a fifth of the image's size on.
+        Distance = "nearest distance",
+        /// The distance to the nearest point, divided by that to the second nearest.
+        Ratio = "ratio of the two nearest",
+        /// One shade for all pixels that have the same nearest point.
+        Shade = "cell color",
+    }
+}
+
+choice! {
+    /// How distances are measured.
+    Metric {
+        /// In a straight line.
+        Euclidean = "euclidean",
+        /// Along rows and columns.
+        Taxicab = "taxicab",
+        /// The greater of the distances across and down.
+        Chebyshev = "chebyshev",
+    }
+}
+
+choice! {
+    /// Where the points lie.
+    Place {
+        /// Anywhere, by chance.
+        Random = "random",
+        /// Along the sides of a square in the middle.
+        Square = "square",
+        /// Along a circle around the middle.
+        Circle = "circle",
+        /// Along a cross of horizontal and vertical arms.
+        HorizontalCross = "cross horizontal",
+        /// Along a cross of diagonal arms.
+        DiagonalCross = "cross diagonal",
+        /// Where "point positions" says.
+        Custom = "custom",
+    }
+}
+
+params! {
+    /// Parameters of [`BLOCK`].
+    Params {
+        /// What a pixel shows.
+        shows "type": choice [Shows] = Shows::Ratio;
+        /// How distances are measured.
+        metric: choice [Metric] = Metric::Euclidean;
+        /// Where the points lie.
+        place "point place": choice [Place] = Place::Random;
+        /// Side of the square, radius of the circle, or length of the arms of a cross.
+        width: int [hard 0..=10000 soft 0..=100 unit "% of the width"] = 75;
+        /// The points of the custom placement as x:y,x:y,… with 0:0 the top left corner and 1:1
+        /// the bottom right one; at most 255 points.
+        positions "point positions": text = "";
+        /// How many points: in all (random, circle), on each side including both corners (square),
+        /// or on each arm including the middle (crosses).
+        count "number of points": int [hard 0..=65536 soft 0..=200] = 15;
+        /// Where the turtle of a connected L-system starts, from the left edge.
+        initial_x "initial x": float [hard 0.0..=1.0 soft 0.0..=1.0 unit "of the width"] = 0.5;
+        /// Where the turtle of a connected L-system starts, from the top edge.
+        initial_y "initial y": float [hard 0.0..=1.0 soft 0.0..=1.0 unit "of the height"] = 0.5;
+        /// Where the turtle of a connected L-system looks at first: 0 right, 90 up.
+        initial_angle "initial angle": int [hard -36000..=36000 soft 0..=360 unit "degrees"] = 90;
+    }
+}
+
+/// The block as everybody else sees it.
+pub static BLOCK: BlockSpec = BlockSpec::point::<Voronoi>(About {
+    id: "voronoi diagram",
+    summary: "Cells around points that lie anywhere, on a figure, or where a list says.",
+    inputs: &[input("l-system", Kind::Text).optional()],
+    outputs: &[output("image", Planes::Grey)],
+    uses_seed: true,
+    in_pixels: "what the shades of cells are made from, in 8-bit precision",
+    ..About::DEFAULT
+});
+
+struct Voronoi {
+    shows: Shows,
+    metric: Metric,
+    /// `None` without points.
+    cells: Option<Cells>,
+    /// What a distance in pixels is divided by.
+    unit: f32,
+}
+
+impl PointBlock for Voronoi {
+    type Params = Params;
+
+    fn prepare<L: Levels>(params: &Params, cx: &PrepareContext<'_>) -> Result<Self, Error> {
+        if cx.is_connected(TEXT) {
+            let message = "cannot take its points from an L-system in this version";
+            return Err(Error::new(ErrorKind::Unsupported, message));
+        }
+        let points: Vec<Point> = place(params, cx)?
+            .into_iter()
+            .zip(0..)
+            .map(|((x, y), i)| {
+                // The shade of a place in pixels changes with the resolution, that of a number
+                // in the list does not. Far from the numbers that the places are drawn from: a
+                // shade must not tell where its point lies.
+                let number = i32::wrapping_mul(i, 100_003).wrapping_add(50_021);
+                let index = if L::EIGHT_BIT { convert::low_bits(u64::from(x + y)) } else { number };
+                Point::new(x, y, elias::noise(index).abs())
+            })
+            .collect();
+        let needed = if params.shows == Shows::Ratio { 2 } else { 1 };
+        let cells = match params.metric {
+            _ if points.is_empty() => None,
+            Metric::Euclidean => Some(Cells::new::<Euclidean>(points, needed, cx)?),
+            Metric::Taxicab => Some(Cells::new::<Taxicab>(points, needed, cx)?),
+            Metric::Chebyshev => Some(Cells::new::<Chebyshev>(points, needed, cx)?),
+        };
+        let size = u32::midpoint(cx.width, cx.height);
+        let unit = 5.0 / convert::pixels(size);
+        Ok(Self { shows: params.shows, metric: params.metric, cells, unit })
+    }
+
+    #[inline(always)]
+    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+        let out = out.grey();
+        let Some(cells) = &self.cells else {
+            // Infinitely far from every point.
+            out.fill(1.0);
+            return;
+        };
+        match self.metric {
+            Metric::Euclidean => self.write::<Euclidean>(cells, cx, out),
+            Metric::Taxicab => self.write::<Taxicab>(cells, cx, out),
+            Metric::Chebyshev => self.write::<Chebyshev>(cells, cx, out),
+        }
+    }
+
+    fn scratch_bytes(params: &Params, width: u32, height: u32) -> u64 {
+        let points = match params.place {
+            Place::Random | Place::Circle => u64::from(params.count.unsigned_abs()),
+            Place::Custom => placement::MAX_CUSTOM as u64,
+            _ => 4 * u64::from(params.count.unsigned_abs()) + 4,
+        };
+        placement::bytes_of(points) + Cells::bytes_of(points, width, height)
+    }
+}
+
+fn place(params: &Params, cx: &PrepareContext<'_>) -> Result<Vec<(u32, u32)>, Error> {
+    let count = i64::from(params.count);
+    // In this order of operations, which decides on which pixel a length ends.
+    let length = convert::truncate64(f64::from(params.width) * 0.01 * f64::from(cx.width));
+    let layout = Layout { width: cx.width, height: cx.height, length, count };
+    match params.place {
+        Place::Random => layout.random(cx),
+        Place::Square => Ok(layout.square()),
+        Place::Circle => Ok(layout.circle()),
+        Place::HorizontalCross => Ok(layout.horizontal_cross()),
+        Place::DiagonalCross => Ok(layout.diagonal_cross()),
+        Place::Custom => Ok(layout.custom(&params.positions)),
+    }
+}
+
+impl Voronoi {
+    #[inline(always)]
+    fn write<M: Measure>(&self, cells: &Cells, cx: &RowContext, out: &mut [f32]) {
+        match self.shows {
+            Shows::Distance => cells.nearest::<M>(cx, out, |nearest, _| {
+                let value = M::distance(nearest) * self.unit;
+                if value < 1.0 { value } else { 1.0 }
+            }),
+            Shows::Ratio => cells.nearest_two::<M>(cx, out, |nearest, second| {
+                // Equal distances give 1 by themselves; two points here would give 0/0.
+                let ratio = M::distance(nearest) / M::distance(second);
+                if nearest > 0.0 { ratio } else { 0.0 }
+            }),
+            Shows::Shade => cells.nearest::<M>(cx, out, |_, shade| shade),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::block::testing::Trial;
+
+    fn trial(size: (u32, u32), metric: u32, shows: u32) -> Trial {
+        Trial::of(&BLOCK).size(size.0, size.1).choice("metric", metric).choice("type", shows)
+    }
+
+    /// The levels that the specification gives for these points, by looking at all of them.
+    fn naive(
+        (width, height): (u32, u32),
+        points: &[(u32, u32)],
+        metric: u32,
+        shows: u32,
+    ) -> Vec<f64> {
+        let around = |a: u32, b: u32, size: u32| f64::from(a.abs_diff(b).min(size - a.abs_diff(b)));
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        pixels
+            .map(|(x, y)| {
+                let (mut first, mut second, mut shade) = (f64::INFINITY, f64::INFINITY, 1.0);
+                for point in points {
+                    let (dx, dy) = (around(x, point.0, width), around(y, point.1, height));
+                    let distance = match metric {
+                        0 => (dx * dx + dy * dy).sqrt(),
+                        1 => dx + dy,
+                        _ => dx.max(dy),
+                    };
+                    if distance < first {
+                        let sum = convert::low_bits(u64::from(point.0 + point.1));
+                        (first, second, shade) = (distance, first, elias::noise64(sum).abs());
+                    } else if distance < second {
+                        second = distance;
+                    }
+                }
+                let value = match shows {
+                    0 => (5.0 * first / f64::from(u32::midpoint(width, height))).min(1.0),
+                    1 if points.is_empty() => 1.0,
+                    1 if first < second => first / second,
+                    1 => f64::from(u8::from(first > 0.0)),
+                    _ => shade,
+                };
+                (value * 255.0 + 1e-3).trunc()
+            })
+            .collect()
+    }
+
+    fn places(layout: &Layout, place: u32) -> Vec<(u32, u32)> {
+        match place {
+            1 => layout.square(),
+            2 => layout.circle(),
+            3 => layout.horizontal_cross(),
+            _ => layout.diagonal_cross(),
+        }
+    }
+
+    #[test]
+    fn tiles_find_what_looking_at_all_points_finds() {
+        let size = (29, 23);
+        for (metric, shows, place) in
+            (0..3).flat_map(|m| (0..3).flat_map(move |s| (1..5).map(move |p| (m, s, p))))
+        {
+            // Circles around a tile, arms through one, coinciding points, nothing at all.
+            for (count, percent) in [(0, 75), (1, 75), (9, 30), (40, 0), (50, 45), (30, 300)] {
+                let length = convert::truncate64(f64::from(percent) * 0.01 * f64::from(size.0));
+                let layout =
+                    Layout { width: size.0, height: size.1, length, count: i64::from(count) };
+                let expected = naive(size, &places(&layout, place), metric, shows);
+                let trial = trial(size, metric, shows).choice("point place", place);
+                let trial = trial.int("number of points", count).int("width", percent);
+                for (i, (level, expected)) in trial.levels(0).iter().zip(expected).enumerate() {
+                    let case = (metric, shows, place, count, percent);
+                    assert_eq!(f64::from(*level), expected, "{case:?} at {i}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn random_points_all_differ_and_stay_when_more_are_added() {
+        let trial = trial((16, 16), 0, 0);
+        let zeros = |count| {
+            let levels = trial.clone().int("number of points", count).levels(0);
+            levels.iter().map(|level| *level == 0).collect::<Vec<_>>()
+        };
+        let (few, many) = (zeros(20), zeros(100));
+        assert_eq!(few.iter().filter(|is_point| **is_point).count(), 20);
+        assert_eq!(many.iter().filter(|is_point| **is_point).count(), 100);
+        assert!(few.iter().zip(&many).all(|(few, many)| !few || *many));
+        // More points than pixels: every pixel that the hash reaches.
+        assert!(zeros(65_536).iter().filter(|is_point| **is_point).count() > 200);
+    }
+
+    #[test]
+    fn without_points_the_image_is_white_and_with_one_the_ratio_is_black() {
+        let custom = trial((8, 8), 0, 1).choice("point place", 5);
+        assert_eq!(custom.levels(0), [255; 64]);
+        assert_eq!(custom.text("point positions", "0.5:0.5").levels(0), [0; 64]);
+    }
+
+    #[test]
+    fn rows_are_the_same_bits_however_they_are_asked_for() {
+        for metric in 0..3 {
+            for shows in 0..3 {
+                trial((45, 19), metric, shows).assert_same_bits();
+            }
+        }
+    }
+
+    #[test]
+    fn shades_do_not_change_with_the_resolution() {
+        let shades = |side: u32| {
+            let trial = trial((side, side), 0, 2).choice("point place", 5);
+            let image = trial.text("point positions", "0.2:0.2 0.7:0.6").image();
+            [image.channel(0)[0], image.row(0, side / 2 + 1)[side as usize / 2 + 1]]
+        };
+        assert_eq!(shades(16), shades(64));
+    }
+
+    #[test]
+    fn an_l_system_is_refused() {
+        let text = std::string::String::from("D");
+        let error = Trial::of(&BLOCK).input(TEXT, text).compute().unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Unsupported);
+    }
+}
