@@ -2,6 +2,7 @@
 
 mod adjust;
 mod color;
+mod mix;
 mod noise;
 mod results;
 
@@ -11,6 +12,7 @@ use crate::block::Family;
 pub static FAMILIES: &[&Family] = &[
     &adjust::FAMILY,
     &color::FAMILY,
+    &mix::FAMILY,
     &noise::FAMILY,
     &results::FAMILY,
 ];

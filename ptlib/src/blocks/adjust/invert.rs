@@ -34,3 +34,17 @@ impl PointBlock for Invert {
         out.map(inputs, IMAGE, |value| 1.0 - value);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::block::testing::{Trial, image_of_levels};
+
+    #[test]
+    fn levels_are_mirrored() {
+        let image = image_of_levels(2, &[&[0, 255, 200, 1]]);
+        let trial = Trial::of(&BLOCK).size(2, 2).input(IMAGE, image);
+        assert_eq!(trial.levels(0), [255, 0, 55, 254]);
+        trial.assert_same_bits();
+    }
+}

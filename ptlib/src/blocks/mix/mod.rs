@@ -1,0 +1,3 @@
+//! Blocks that make one picture of several.
+
+crate::family!("mix": mix);
