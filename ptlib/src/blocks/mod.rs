@@ -2,6 +2,8 @@
 
 mod adjust;
 mod color;
+mod filter;
+mod light;
 mod mix;
 mod noise;
 mod results;
@@ -12,6 +14,8 @@ use crate::block::Family;
 pub static FAMILIES: &[&Family] = &[
     &adjust::FAMILY,
     &color::FAMILY,
+    &filter::FAMILY,
+    &light::FAMILY,
     &mix::FAMILY,
     &noise::FAMILY,
     &results::FAMILY,

@@ -1,0 +1,3 @@
+//! Blocks that make a pixel from its neighbourhood.
+
+crate::family!("filter": blur);
