@@ -7,6 +7,7 @@ mod light;
 mod mix;
 mod noise;
 mod results;
+mod transform;
 
 use crate::block::Family;
 
@@ -19,4 +20,5 @@ pub static FAMILIES: &[&Family] = &[
     &mix::FAMILY,
     &noise::FAMILY,
     &results::FAMILY,
+    &transform::FAMILY,
 ];
