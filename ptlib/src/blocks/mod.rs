@@ -2,6 +2,7 @@
 
 mod adjust;
 mod color;
+mod files;
 mod filter;
 mod light;
 mod mix;
@@ -15,6 +16,7 @@ use crate::block::Family;
 pub static FAMILIES: &[&Family] = &[
     &adjust::FAMILY,
     &color::FAMILY,
+    &files::FAMILY,
     &filter::FAMILY,
     &light::FAMILY,
     &mix::FAMILY,

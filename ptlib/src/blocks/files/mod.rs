@@ -1,0 +1,3 @@
+//! Blocks that read and write files.
+
+crate::family!("files": load_file, save_file);
