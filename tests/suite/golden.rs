@@ -59,6 +59,7 @@ fn check_picture(spec: &BlockSpec, image: &Image, bless: bool) -> Option<String>
     let path = folder("golden").join(format!("{}.png", spec.about.id));
     let found = Levels::of(image);
     if bless {
+        fs::create_dir_all(folder("golden")).expect("the repository can be written");
         fs::copy(found.write(spec.about.id), &path).expect("the repository can be written");
         return None;
     }
