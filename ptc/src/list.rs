@@ -1,0 +1,105 @@
+//! `ptc list`: the block types.
+
+use std::io::{self, Write};
+
+use ptlib::block::Registry;
+use serde::Serialize;
+
+use crate::{
+    description::BlockDescription,
+    exit::{Exit, Fault},
+    terminal::{self, wrap},
+};
+
+/// The command's arguments.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ListArguments {
+    /// Only the block types of this family
+    #[arg(long, value_name = "F")]
+    family: Option<String>,
+
+    /// Print everything that is known of them as JSON: {"blocks": [...]}, each as `ptc describe
+    /// --json` prints it
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Serialize)]
+struct Catalogue {
+    blocks: Vec<BlockDescription>,
+}
+
+/// Runs the command.
+pub(crate) fn run(arguments: &ListArguments) -> Result<Exit, Fault> {
+    let mut blocks = described(&Registry::builtin());
+    if let Some(family) = &arguments.family {
+        let families = families(&blocks);
+        blocks.retain(|block| block.family == family);
+        if blocks.is_empty() {
+            let message = format!("there is no family \"{family}\"");
+            return Err(Fault::usage(message, format!("families are {families}")));
+        }
+    }
+    let mut out = terminal::stdout();
+    if arguments.json {
+        terminal::write_json(&mut out, &Catalogue { blocks })?;
+    } else {
+        print(&mut out, &blocks, terminal::columns())?;
+    }
+    Ok(Exit::Success)
+}
+
+fn described(registry: &Registry) -> Vec<BlockDescription> {
+    let blocks = registry.blocks().into_iter();
+    let described = blocks.map(|spec| {
+        let family = registry.family_of(spec.about.id).unwrap_or_default();
+        BlockDescription::of(spec, family)
+    });
+    described.collect()
+}
+
+fn families(blocks: &[BlockDescription]) -> String {
+    let mut families: Vec<_> = blocks.iter().map(|block| block.family).collect();
+    families.dedup();
+    families.join(", ")
+}
+
+/// Prints one heading a family, and below it one line a block type, or more if the summary is
+/// long.
+fn print(out: &mut impl Write, blocks: &[BlockDescription], columns: usize) -> io::Result<()> {
+    let heading = terminal::heading();
+    let widest = blocks.iter().map(|block| block.id.chars().count()).max().unwrap_or_default();
+    let indent = widest + 4;
+    let mut family = "";
+    for block in blocks {
+        if block.family != family {
+            if !family.is_empty() {
+                writeln!(out)?;
+            }
+            family = block.family;
+            writeln!(out, "{heading}{family}{heading:#}")?;
+        }
+        let lines = wrap(block.summary, columns.saturating_sub(indent));
+        let summary = lines.join(&format!("\n{:indent$}", ""));
+        writeln!(out, "  {:widest$}  {summary}", block.id)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_catalogue_fits_its_columns() {
+        let blocks = described(&Registry::builtin());
+        for columns in [50, 80] {
+            let mut out = Vec::new();
+            print(&mut out, &blocks, columns).unwrap();
+            let text = anstream::adapter::strip_bytes(&out).into_vec();
+            let text = String::from_utf8(text).unwrap();
+            assert!(text.lines().all(|line| line.chars().count() <= columns), "{text}");
+            assert!(blocks.iter().all(|block| text.contains(&format!("\n  {} ", block.id))));
+        }
+    }
+}
