@@ -4,13 +4,14 @@
 //! of a few KB, and computed at any size when it is needed. An [`Engine`] computes it: on several
 //! threads, with a cache, and with the same bits on every machine.
 //!
-//! The layers, each seeing only those before it: [`math`] → [`value`] → [`params`] → [`block`] →
-//! `blocks`; [`graph`] → [`run`]; `io`; `ffi` (the C ABI, on the public interface of this crate
+//! The layers, each seeing only those before it: [`math`] → [`value`] → [`mod@params`] → [`block`] →
+//! `blocks`; [`graph`] → [`run`]; `io`; [`ffi`] (the C ABI, on the public interface of this crate
 //! only). `ARCHITECTURE.md` in the repository is the map.
 
 pub mod block;
 mod blocks;
 pub mod error;
+pub mod ffi;
 pub mod graph;
 pub mod io;
 pub mod limits;

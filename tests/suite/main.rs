@@ -1,6 +1,7 @@
 //! Suites that cross crates: `../README.md` says which test goes where.
 #![expect(clippy::print_stdout, reason = "tests tell what they skipped and where they wrote")]
 
+mod abi;
 mod conformance;
 mod frozen;
 mod golden;

@@ -8,6 +8,8 @@ mod light;
 mod mix;
 mod noise;
 mod results;
+#[cfg(feature = "test-blocks")]
+mod testing;
 mod transform;
 
 use crate::block::Family;
@@ -22,5 +24,7 @@ pub static FAMILIES: &[&Family] = &[
     &mix::FAMILY,
     &noise::FAMILY,
     &results::FAMILY,
+    #[cfg(feature = "test-blocks")]
+    &testing::FAMILY,
     &transform::FAMILY,
 ];
