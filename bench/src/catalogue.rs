@@ -1,0 +1,113 @@
+//! Rows from the registry: every block at its defaults, alone.
+
+use std::{fs, path::PathBuf};
+
+use ptlib::{
+    BlockId, Engine, Graph, Precision,
+    block::BlockSpec,
+    io,
+    params::{FileUse, ParamKind},
+    value::Kind,
+};
+
+use crate::{
+    Result, card,
+    measure::Times,
+    options::is_wanted,
+    report::{Row, Subject},
+    work::{self, Settings, Work, precision_name},
+};
+
+/// A block with everything that it needs.
+pub(crate) struct Entry {
+    pub(crate) name: String,
+    pub(crate) work: Work,
+}
+
+impl Entry {
+    pub(crate) fn measure(mut self, runs: usize) -> Result<Row> {
+        let times = Times::of(runs, || self.work.run())
+            .map_err(|error| format!("{}: {error}", self.name))?;
+        let Settings { size, threads, precision, .. } = self.work.settings;
+        let precision = precision_name(precision);
+        Ok(Row::new(Subject { name: self.name, size, threads, precision }, &times))
+    }
+}
+
+/// An entry for each wanted block whose first output is an image, in both precisions. Inputs get
+/// the cheapest source that gives what they take.
+pub(crate) fn entries(size: u32, filters: &[String]) -> Result<Vec<Entry>> {
+    let mut entries = Vec::new();
+    let engine = work::engine(1, 0);
+    for spec in engine.registry().blocks() {
+        let id = spec.about.id;
+        let is_image = spec.about.outputs.first().is_some_and(|output| output.kind == Kind::Image);
+        if !is_image || id == card::ID || !is_wanted(id, filters) {
+            continue;
+        }
+        for precision in [Precision::Float, Precision::EightBit] {
+            let (graph, block) = alone(&engine, spec)?;
+            let (size, supersampling) = ((size, size), Some(1));
+            let settings = Settings { block, size, threads: 1, precision, supersampling };
+            let work = Work::new(graph, settings)?;
+            entries.push(Entry { name: id.to_owned(), work });
+        }
+    }
+    Ok(entries)
+}
+
+/// A graph of one block and the sources of its required inputs.
+fn alone(engine: &Engine, spec: &'static BlockSpec) -> Result<(Graph, BlockId)> {
+    let mut graph = engine.new_graph();
+    let block = graph.add(spec.about.id)?;
+    for (number, port) in (0..).zip(spec.about.inputs) {
+        if port.is_optional {
+            continue;
+        }
+        let source = match port.kind {
+            Kind::Image => card::ID,
+            kind => source_of(engine, kind)?,
+        };
+        let source = graph.add(source)?;
+        graph.connect(source, 0, block, number)?;
+    }
+    if spec.params.iter().any(|param| param.kind == ParamKind::Path(FileUse::Read)) {
+        let folder = picture_folder()?;
+        graph.set_folder(Some(folder));
+        for param in spec.params {
+            if param.kind == ParamKind::Path(FileUse::Read) {
+                graph.set_text(block, param.id, PICTURE)?;
+            }
+        }
+    }
+    Ok((graph, block))
+}
+
+/// A block that gives a value of that kind and takes nothing.
+fn source_of(engine: &Engine, kind: Kind) -> Result<&'static str> {
+    let gives = |spec: &&BlockSpec| {
+        let takes_nothing = spec.about.inputs.iter().all(|port| port.is_optional);
+        takes_nothing && spec.about.outputs.first().is_some_and(|output| output.kind == kind)
+    };
+    let blocks = engine.registry().blocks();
+    let spec = blocks.into_iter().find(gives);
+    Ok(spec.ok_or_else(|| format!("no block gives a value of kind {}", kind.name()))?.about.id)
+}
+
+const PICTURE: &str = "card.png";
+
+/// A folder with a picture for the blocks that read one.
+fn picture_folder() -> Result<PathBuf> {
+    let folder = std::env::temp_dir().join("ptlib-bench");
+    fs::create_dir_all(&folder)?;
+    let path = folder.join(PICTURE);
+    if !path.exists() {
+        let mut graph = work::engine(1, 0).new_graph();
+        let block = graph.add(card::ID)?;
+        let (size, precision) = ((256, 256), Precision::EightBit);
+        let settings = Settings { block, size, threads: 1, precision, supersampling: Some(1) };
+        let card = Work::new(graph, settings)?.compute()?;
+        io::save_image(&card, &path, io::BitDepth::Eight)?;
+    }
+    Ok(folder)
+}

@@ -1,0 +1,55 @@
+//! The tasks of this repository, run as `cargo xtask TASK`.
+//!
+//! One file a task: [`mod@test`] is the one command that checks everything, [`dist`] makes the
+//! installable tree, [`header`] writes the C header, [`tidy`] checks the house rules that no
+//! compiler knows, [`guide`] replays CONTRIBUTING.md. Only the tools that a Rust programmer has
+//! anyway are needed; a missing tool is named together with how to install it.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program")]
+
+use std::process::ExitCode;
+
+mod dist;
+mod guide;
+mod header;
+mod process;
+mod repository;
+mod test;
+mod tidy;
+
+/// What a task gives: its failure is a message for the person who ran it.
+type Result<T = ()> = std::result::Result<T, Box<dyn std::error::Error + Send + Sync>>;
+
+const USAGE: &str = "\
+usage: cargo xtask TASK
+
+tasks:
+  test [--strict] [--quick] [STEP…]   check everything; --strict fails on a missing tool,
+                                      --quick leaves out what takes minutes
+  test --list                         the steps of `test`
+  dist [--out DIR] [--debug]          make the installable tree (default: target/dist)
+  header [--check]                    write include/ptlib/ptlib.h, or check that it is up to date
+  tidy [--soft]                       check the house rules; --soft lists what is near a limit
+  guide                               replay CONTRIBUTING.md in a scratch copy";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (task, rest) = match arguments.split_first() {
+        Some((task, rest)) => (task.as_str(), rest),
+        None => ("", &[][..]),
+    };
+    let done = match task {
+        "test" => test::run(rest),
+        "dist" => dist::run(rest).map(|()| ExitCode::SUCCESS),
+        "header" => header::run(rest).map(|()| ExitCode::SUCCESS),
+        "tidy" => tidy::run(rest).map(|()| ExitCode::SUCCESS),
+        "guide" => guide::run(rest).map(|()| ExitCode::SUCCESS),
+        _ => Err(USAGE.into()),
+    };
+    match done {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! The steps of `cargo xtask test`, fast ones first.
+
+use super::c_programs;
+use crate::{
+    Result, dist, guide, header,
+    process::{self, cargo, tool},
+    repository, tidy,
+};
+
+/// One step.
+pub(super) struct Step {
+    /// Its name on the command line.
+    pub(super) name: &'static str,
+    /// What it checks.
+    pub(super) about: &'static str,
+    /// Whether `--quick` runs it as well.
+    pub(super) is_quick: bool,
+    /// The steps that have to pass before it.
+    pub(super) needs: &'static [&'static str],
+    /// Runs it; the argument tells whether missing tools are failures.
+    pub(super) run: fn(is_strict: bool) -> Result,
+}
+
+/// All steps, in their order.
+pub(super) const STEPS: &[Step] = &[
+    quick("format", "the layout of the code is rustfmt's", format),
+    quick("tidy", "house rules: sizes, layers, ids, dependencies", |_| tidy::run(&[])),
+    quick("header", "ptlib.h is what the sources give", |_| header::run(&["--check".to_owned()])),
+    quick("clippy", "no warning of rustc or clippy", clippy),
+    quick("tests", "unit tests, laws, conformance, golden images, C ABI", tests),
+    slow("docs", "the documentation has no broken links", &[], docs),
+    slow("features", "ptlib without its default features", &[], features),
+    slow("guide", "CONTRIBUTING.md, replayed", &[], |_| guide::run(&[])),
+    slow("dist", "the installable tree", &[], |_| dist::make(&dist::Options::default())),
+    slow("soname", "programs ask for the versioned library", &["dist"], c_programs::soname),
+    slow("pkg-config", "C and C++ programs, shared library", &["dist"], c_programs::pkg_config),
+    slow("static", "C and C++ programs, static library", &["dist"], c_programs::static_library),
+    slow("cmake", "C and C++ programs, find_package", &["dist"], c_programs::cmake),
+    slow("valgrind", "no invalid access, no leak", &["dist"], c_programs::valgrind),
+    slow("sanitizer", "the same by AddressSanitizer", &["dist"], c_programs::sanitizer),
+    // Behind `dist`, which asks rustc about the same package and would have it compiled again.
+    slow("bench", "the benchmarks give the right pictures", &[], bench),
+    slow("fuzz", "a short run of each fuzz target", &[], fuzz),
+];
+
+const fn quick(name: &'static str, about: &'static str, run: fn(bool) -> Result) -> Step {
+    Step { name, about, is_quick: true, needs: &[], run }
+}
+
+const fn slow(
+    name: &'static str,
+    about: &'static str,
+    needs: &'static [&'static str],
+    run: fn(bool) -> Result,
+) -> Step {
+    Step { name, about, is_quick: false, needs, run }
+}
+
+fn format(_: bool) -> Result {
+    tool("cargo-fmt")?;
+    process::run(cargo().args(["fmt", "--all", "--check"]))
+}
+
+fn clippy(_: bool) -> Result {
+    tool("cargo-clippy")?;
+    let arguments = ["clippy", "--locked", "--workspace", "--all-targets", "--", "-D", "warnings"];
+    process::run(cargo().args(arguments))
+}
+
+/// All tests of the workspace, the examples of the documentation included.
+fn tests(is_strict: bool) -> Result {
+    let mut cargo = cargo();
+    cargo.args(["test", "--locked", "--workspace", "--no-fail-fast"]);
+    if is_strict {
+        cargo.env("PTLIB_TEST_STRICT", "1");
+    }
+    process::run(&mut cargo)
+}
+
+fn docs(_: bool) -> Result {
+    let arguments = ["doc", "--locked", "--workspace", "--no-deps", "--document-private-items"];
+    process::run(cargo().args(arguments).env("RUSTDOCFLAGS", "-D warnings"))
+}
+
+fn features(_: bool) -> Result {
+    tool("cargo-clippy")?;
+    let arguments = ["clippy", "--locked", "-p", "ptlib", "--all-targets", "--no-default-features"];
+    process::run(cargo().args(arguments).args(["--", "-D", "warnings"]))
+}
+
+/// Each benchmark once: a fast wrong answer is none.
+fn bench(_: bool) -> Result {
+    let arguments = ["run", "--locked", "--release", "-p", "ptlib-bench", "--", "--check"];
+    process::run(cargo().args(arguments))
+}
+
+/// How long each fuzz target runs.
+const FUZZ_SECONDS: u32 = 20;
+
+fn fuzz(_: bool) -> Result {
+    let folder = repository::root().join("fuzz");
+    let targets = repository::files_in(&folder.join("fuzz_targets"), "rs")?;
+    if targets.is_empty() {
+        return Err("fuzz/fuzz_targets has no targets".into());
+    }
+    tool("cargo-fuzz")?;
+    for target in targets {
+        let name = target.file_stem().unwrap_or_default();
+        let mut command = cargo();
+        command.args(["fuzz", "run", "-s", "none"]).arg(name).arg("--");
+        command.arg(format!("-max_total_time={FUZZ_SECONDS}")).arg("-timeout=10");
+        // The coverage that guides the fuzzer is in every compiler, behind a nightly flag.
+        process::run(command.env("RUSTC_BOOTSTRAP", "1"))?;
+    }
+    Ok(())
+}
