@@ -3,6 +3,7 @@
 
 mod abi;
 mod conformance;
+mod examples;
 mod frozen;
 mod golden;
 mod hostile;
