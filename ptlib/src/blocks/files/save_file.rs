@@ -10,8 +10,8 @@ const IMAGE: usize = 0;
 params! {
     /// Parameters of [`BLOCK`].
     Params {
-        /// The file, relative to the folder of the graph. Its name says the format, such as
-        /// `.png`.
+        /// The file, relative to the first folder where the caller allows writing. Its name says
+        /// the format, such as `.png`.
         path: path [write] = "";
     }
 }
