@@ -72,6 +72,10 @@ fn command_terminal(command: &Command) -> String {
 
 fn shown(arguments: &[&str], environment: &[(&str, &str)]) -> String {
     let mut command = ptc();
+    // What the tests themselves run in must not decide: a continuous integration shows colours.
+    for name in ["CI", "NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
+        command.env_remove(name);
+    }
     command.args(arguments).envs(environment.iter().copied());
     Session::start(command).end().0
 }
