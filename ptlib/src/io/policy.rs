@@ -287,7 +287,7 @@ mod tests {
         for path in [
             "C:/Users/somebody/Documents/logo.txt",
             "c:\\Users\\somebody\\logo.txt",
-            "/home/somebody/logo.txt",
+            "/srv/somebody/logo.txt",
             "\\\\server\\share\\logo.txt",
             "C:logo.txt",
         ] {
