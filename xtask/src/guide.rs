@@ -118,8 +118,9 @@ fn add(text: &str, word: &str) -> Result<String> {
 fn execute(line: &str, copy: &Path) -> Result {
     println!("$ {line}");
     let mut cargo = cargo();
-    // The dependencies of the copy are those of the repository: they need not be built again.
-    cargo.current_dir(copy).env("CARGO_TARGET_DIR", repository::target());
+    // Not the folder of the repository: cargo tells packages apart by their path in the workspace,
+    // so it would take the copy's libraries for the repository's.
+    cargo.current_dir(copy).env("CARGO_TARGET_DIR", repository::target().join("guide-build"));
     let mut words = line.split_whitespace();
     for word in words.by_ref() {
         match word.split_once('=') {
