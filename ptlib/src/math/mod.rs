@@ -10,4 +10,5 @@ pub mod convert;
 pub mod elementary;
 pub mod elias;
 pub mod levels;
+pub mod ray;
 pub mod simd;
