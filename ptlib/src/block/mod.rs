@@ -16,6 +16,7 @@ mod registry;
 mod row;
 mod shapes;
 mod spec;
+mod store;
 #[cfg(test)]
 pub(crate) mod testing;
 
@@ -31,3 +32,4 @@ pub(crate) use shapes::{Implementation, RowFactory, WholeFactory};
 pub use spec::{
     About, Access, BlockSpec, InputPort, OutputPort, Planes, Role, Shape, Tiling, input, output,
 };
+pub(crate) use store::Store;

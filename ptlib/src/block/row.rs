@@ -1,6 +1,7 @@
 //! Rows: what a block of shape Point or Gather reads and writes.
 
-use crate::value::MAX_PLANES;
+use super::store::Store;
+use crate::{math::simd::SimdLevel, value::MAX_PLANES};
 
 /// A part of a row of one input image: one slice a plane, none if the input is not connected.
 #[derive(Debug, Clone, Copy, Default)]
@@ -72,13 +73,28 @@ impl<'a> InputRows<'a> {
 pub struct OutputRow<'a> {
     planes: [&'a mut [f32]; MAX_PLANES],
     count: usize,
+    /// How each plane is stored.
+    stores: &'a [Store],
+    /// Which planes are stored already.
+    is_stored: [bool; MAX_PLANES],
+    /// How many values of those were not finite.
+    strange: u32,
 }
 
 impl<'a> OutputRow<'a> {
-    /// A row of as many planes as `planes` gives.
+    /// A row of as many planes as `planes` gives, with the store of each.
     #[inline]
-    pub fn new(planes: impl IntoIterator<Item = &'a mut [f32]>) -> Self {
-        let mut row = Self { planes: Default::default(), count: 0 };
+    pub(crate) fn new(
+        planes: impl IntoIterator<Item = &'a mut [f32]>,
+        stores: &'a [Store],
+    ) -> Self {
+        let mut row = Self {
+            planes: Default::default(),
+            count: 0,
+            stores,
+            is_stored: [false; MAX_PLANES],
+            strange: 0,
+        };
         for plane in planes {
             row.planes[row.count] = plane;
             row.count += 1;
@@ -96,18 +112,20 @@ impl<'a> OutputRow<'a> {
     /// Plane `plane`.
     #[inline]
     pub fn plane(&mut self, plane: usize) -> &mut [f32] {
+        self.is_stored[plane] = false;
         self.planes[plane]
     }
 
     /// The one plane of a grey output.
     #[inline]
     pub fn grey(&mut self) -> &mut [f32] {
-        self.planes[0]
+        self.plane(0)
     }
 
     /// The three planes of a colour output.
     #[inline]
     pub fn rgb(&mut self) -> [&mut [f32]; 3] {
+        self.is_stored = [false; MAX_PLANES];
         let [red, green, blue, _] = &mut self.planes;
         [red, green, blue]
     }
@@ -115,16 +133,46 @@ impl<'a> OutputRow<'a> {
     /// All planes, in order.
     #[inline]
     pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut [f32]> {
+        self.is_stored = [false; MAX_PLANES];
         self.planes[..self.count].iter_mut().map(|plane| &mut **plane)
     }
 
     /// Writes each plane from the same channel of input `port`, value by value.
     #[inline(always)]
     pub fn map(&mut self, inputs: &InputRows<'_>, port: usize, f: impl Fn(f32) -> f32) {
-        for (channel, out) in self.iter_mut().enumerate() {
-            for (out, value) in out.iter_mut().zip(inputs.channel(port, channel)) {
-                *out = f(*value);
-            }
+        for channel in 0..self.count {
+            let (input, out) = (inputs.channel(port, channel), &mut *self.planes[channel]);
+            self.strange += self.stores[channel].map(input, out, &f);
+            self.is_stored[channel] = true;
         }
+    }
+
+    /// Stores what the block wrote. Returns how many values were not finite.
+    #[inline]
+    pub(crate) fn finish(self, simd: SimdLevel) -> u64 {
+        let planes = self.planes.into_iter().zip(self.stores).zip(self.is_stored).take(self.count);
+        let late = planes.filter(|(_, is_stored)| !is_stored);
+        let strange: u32 = late.map(|((plane, store), _)| store.apply(simd, plane)).sum();
+        u64::from(self.strange + strange)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_plane_is_stored_once_it_is_written() {
+        let stores = [Store::Unit, Store::Unit, Store::Free];
+        let input = [0.25, 1.0, f32::NAN];
+        let port = [PortRow::new([&input[..]])];
+        let (mut red, mut green, mut blue) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        let planes = [&mut red[..], &mut green, &mut blue];
+        let mut row = OutputRow::new(planes, &stores);
+        row.map(&InputRows::new(&port), 0, |value| value * 2.0);
+        // Changed after it was stored: it is stored again.
+        row.plane(1).fill(-3.0);
+        assert_eq!(row.finish(SimdLevel::best()), 3);
+        assert_eq!((red, green, blue), ([0.5, 1.0, 0.0], [0.0; 3], [0.5, 2.0, 0.0]));
     }
 }

@@ -3,13 +3,10 @@
 use std::sync::Arc;
 
 use super::{Access, BlockSpec, Context, Files, Implementation, InputRows, OutputRow, Planes};
-use super::{PortRow, Progress, RowContext};
+use super::{PortRow, Progress, RowContext, Store};
 use crate::{
     error::{Error, ErrorKind},
-    math::{
-        levels::{EightBit, Levels, Precision},
-        simd::SimdLevel,
-    },
+    math::{levels::Precision, simd::SimdLevel},
     params::ParamValue,
     value::{BufferPool, Image, MAX_PLANES, Value},
 };
@@ -155,9 +152,12 @@ impl Trial {
             }
             Implementation::Rows(_) => vec![Value::Image(self.rows(&context)?)],
         };
-        for (value, port) in values.iter_mut().zip(self.spec.about.outputs) {
-            if let (Value::Image(image), false) = (value, port.is_free) {
-                image.planes_mut().flatten().for_each(|value| *value = self.stored(*value));
+        if let Implementation::Whole(_) = self.spec.implementation {
+            for (value, port) in values.iter_mut().zip(self.spec.about.outputs) {
+                if let Value::Image(image) = value {
+                    let store = Store::of(self.precision, port.is_free);
+                    image.planes_mut().for_each(|plane| _ = store.apply(self.simd, plane));
+                }
             }
         }
         Ok(values)
@@ -176,6 +176,8 @@ impl Trial {
         };
         let kernel = factory.prepare(&self.values, self.precision, context)?;
         let mut image = context.new_image(self.planes()?)?;
+        let stores =
+            vec![Store::of(self.precision, self.spec.about.outputs[0].is_free); image.planes()];
         let width = self.width as usize;
         let mut planes: Vec<&mut [f32]> = image.planes_mut().collect();
         for y in 0..self.height {
@@ -189,7 +191,9 @@ impl Trial {
                 });
                 let x = u32::try_from(x).expect("a column of an image");
                 let place = RowContext { x, y, width: self.width, height: self.height };
-                kernel.row(&place, &InputRows::new(&ports), &mut OutputRow::new(out));
+                let mut out = OutputRow::new(out, &stores);
+                kernel.row(&place, &InputRows::new(&ports), &mut out);
+                out.finish(self.simd);
             }
         }
         Ok(image)
@@ -222,14 +226,6 @@ impl Trial {
                 }
             }
         })
-    }
-
-    fn stored(&self, value: f32) -> f32 {
-        let value = if value.is_finite() { value.clamp(0.0, 1.0) } else { 0.0 };
-        match self.precision {
-            Precision::EightBit => EightBit::store(value),
-            Precision::Float => value,
-        }
     }
 }
 

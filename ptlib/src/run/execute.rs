@@ -10,7 +10,6 @@ use std::{
 
 use super::{
     cache::Cache,
-    finish::Store,
     log::{Log, LogLevel},
     monitor::Monitor,
     nodes::{Node, Work},
@@ -19,7 +18,7 @@ use super::{
     sink::Sink,
 };
 use crate::{
-    block::{Context, Files, Progress, RowKernel},
+    block::{Context, Files, Progress, RowKernel, Store},
     error::{Error, ErrorKind},
     math::{levels::Precision, simd::SimdLevel},
     value::{BufferPool, Image, Kind, Value},
@@ -249,6 +248,7 @@ impl<'a, 'g> Execution<'a, 'g> {
         }
         let rows = StageRows {
             members: &members,
+            sets: rows::BufferSets::new(&members),
             given: match (members.is_empty(), stage.handed_over.first()) {
                 (true, Some(place)) => self.value(stage.root, self.plan.wanted[*place].output),
                 _ => None,

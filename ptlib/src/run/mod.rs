@@ -5,7 +5,7 @@
 //!
 //! 1. `nodes`: the blocks that the wanted outputs need, resolved.
 //! 2. `plan`: what is stored, what is fused, in which order, and how much memory that takes.
-//! 3. `execute`: stage after stage; `rows` runs a stage strip by strip, `finish` is the store at
+//! 3. `execute`: stage after stage; `rows` runs a stage strip by strip, the store (`block::Store`) is at
 //!    the end of each block, `sink` takes what is wanted.
 //! 4. `monitor`: progress and cancelling; `threads`: the pool; `cache` and `key`: what is kept.
 
@@ -14,7 +14,6 @@ mod cancel;
 mod engine;
 mod execute;
 mod files;
-mod finish;
 mod key;
 mod log;
 mod monitor;

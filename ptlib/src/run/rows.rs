@@ -12,13 +12,13 @@ use std::sync::{
 
 use super::{
     execute::{Means, guard},
-    finish::Store,
     plan::Sizes,
     sink::{Sink, SinkStrip},
 };
 use crate::{
-    block::{InputRows, OutputRow, PortRow, Progress, RowContext, RowKernel},
+    block::{InputRows, OutputRow, PortRow, Progress, RowContext, RowKernel, Store},
     error::Error,
+    math::simd::SimdLevel,
     value::{Image, Plane, Value},
 };
 
@@ -62,6 +62,7 @@ pub(super) struct Handed {
 pub(super) struct StageRows<'a> {
     /// In topological order, the root last.
     pub(super) members: &'a [Member],
+    pub(super) sets: BufferSets,
     /// The stored value that is handed over, in a stage without members.
     pub(super) given: Option<&'a Value>,
     pub(super) handed_over: Vec<Handed>,
@@ -187,16 +188,16 @@ impl StageRows<'_> {
             let mut x = 0;
             while x < width {
                 let len = buffers.segment.min((width - x) as usize);
-                let cx = RowContext { x, y, width, height };
+                let segment = Segment { cx: RowContext { x, y, width, height }, len };
                 let offset = row as usize * width as usize + x as usize;
-                for (number, member) in self.members.iter().enumerate() {
+                for (number, strange) in strange.iter().enumerate() {
                     *at = Some(number);
                     let is_root = number + 1 == self.members.len();
                     let target = (is_root && !strip.stored.is_empty())
                         .then_some((strip.stored.as_mut_slice(), offset));
-                    let count = self.run_member(means, member, number, &cx, len, buffers, target);
+                    let count = self.run_member(means.simd, number, &segment, buffers, target);
                     if count > 0 {
-                        strange[number].fetch_add(count, Ordering::Relaxed);
+                        strange.fetch_add(count, Ordering::Relaxed);
                     }
                 }
                 *at = None;
@@ -207,31 +208,57 @@ impl StageRows<'_> {
         Ok(())
     }
 
-    /// Computes one member on one segment, into its buffers or into the stored planes.
-    #[expect(clippy::too_many_arguments, reason = "the state of the innermost loop")]
+    /// Computes one member on one segment, into its buffers or into the stored planes. Returns how
+    /// many numbers were not finite.
     fn run_member(
         &self,
-        means: &Means<'_>,
-        member: &Member,
+        simd: SimdLevel,
         number: usize,
-        cx: &RowContext,
-        len: usize,
+        segment: &Segment,
         buffers: &mut Buffers,
         target: Option<(&mut [&mut [f32]], usize)>,
     ) -> u64 {
-        let mut own = std::mem::take(&mut buffers.rows[number]);
+        let member = &self.members[number];
+        let set = self.sets.of_member[number];
+        let mut own = std::mem::take(&mut buffers.sets[set]);
         let mut out = match target {
             Some((planes, offset)) => {
-                OutputRow::new(planes.iter_mut().map(|plane| &mut plane[offset..offset + len]))
+                let parts = planes.iter_mut().map(|plane| &mut plane[offset..offset + segment.len]);
+                OutputRow::new(parts, &member.stores)
             }
-            None => OutputRow::new(own.iter_mut().map(|plane| &mut plane.data_mut()[..len])),
+            None => {
+                let planes = own.iter_mut().take(member.stores.len());
+                let parts = planes.map(|plane| &mut plane.data_mut()[..segment.len]);
+                OutputRow::new(parts, &member.stores)
+            }
         };
-        let mut ports = [PortRow::default(); MAX_PORTS];
+        // Most blocks have few inputs, and room for many costs time in each segment.
+        if member.sources.len() <= FEW_PORTS {
+            self.write::<FEW_PORTS>(member, segment, buffers, &mut out);
+        } else {
+            self.write::<MAX_PORTS>(member, segment, buffers, &mut out);
+        }
+        let strange = out.finish(simd);
+        buffers.sets[set] = own;
+        strange
+    }
+
+    /// Has a member of at most `PORTS` inputs write its segment.
+    fn write<const PORTS: usize>(
+        &self,
+        member: &Member,
+        segment: &Segment,
+        buffers: &Buffers,
+        out: &mut OutputRow<'_>,
+    ) {
+        let (cx, len) = (&segment.cx, segment.len);
+        let mut ports = [PortRow::default(); PORTS];
         for (port, source) in ports.iter_mut().zip(&member.sources) {
             *port = match source {
                 RowSource::None => PortRow::default(),
                 RowSource::Member { member, first_plane, planes } => {
-                    let rows = &buffers.rows[*member][*first_plane..*first_plane + *planes];
+                    let rows = &buffers.sets[self.sets.of_member[*member]];
+                    let rows = &rows[*first_plane..*first_plane + *planes];
                     PortRow::new(rows.iter().map(|plane| &plane.data()[..len]))
                 }
                 RowSource::Image(image) => PortRow::new(
@@ -240,14 +267,7 @@ impl StageRows<'_> {
                 ),
             };
         }
-        let inputs = InputRows::new(&ports[..member.sources.len().min(MAX_PORTS)]);
-        member.kernel.row(cx, &inputs, &mut out);
-        let mut strange = 0;
-        for (plane, store) in out.iter_mut().zip(&member.stores) {
-            strange += u64::from(store.apply(means.simd, plane));
-        }
-        buffers.rows[number] = own;
-        strange
+        member.kernel.row(cx, &InputRows::new(&ports[..member.sources.len().min(PORTS)]), out);
     }
 
     /// Gives row `row` of the strip to its sinks.
@@ -263,7 +283,8 @@ impl StageRows<'_> {
                         &strip.stored[handed.first_plane + channel][start..start + width]
                     }
                     (_, Some(root)) => {
-                        &buffers.rows[root][handed.first_plane + channel].data()[..width]
+                        let rows = &buffers.sets[self.sets.of_member[root]];
+                        &rows[handed.first_plane + channel].data()[..width]
                     }
                     _ => &[],
                 };
@@ -276,9 +297,55 @@ impl StageRows<'_> {
 /// The most inputs of a block.
 pub(super) const MAX_PORTS: usize = 16;
 
-/// The rows that one thread computes with: per member, one a plane.
+/// As many inputs as the blocks have that run often.
+const FEW_PORTS: usize = 3;
+
+/// A part of a row.
+struct Segment {
+    cx: RowContext,
+    len: usize,
+}
+
+/// Which buffers each member of a stage writes. A buffer is written anew as soon as its last reader
+/// is done, so that a long chain of blocks needs no more cache than a short one.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct BufferSets {
+    /// The set that each member writes.
+    of_member: Vec<usize>,
+    /// The planes of each set.
+    planes: Vec<usize>,
+}
+
+impl BufferSets {
+    /// Sets for the members of a stage, in topological order.
+    pub(super) fn new(members: &[Member]) -> Self {
+        let mut last_reader: Vec<usize> = (0..members.len()).collect();
+        for (number, member) in members.iter().enumerate() {
+            for source in &member.sources {
+                if let RowSource::Member { member, .. } = source {
+                    last_reader[*member] = number;
+                }
+            }
+        }
+        let mut sets = Self { of_member: Vec::new(), planes: Vec::new() };
+        let mut free: Vec<usize> = Vec::new();
+        for (number, member) in members.iter().enumerate() {
+            let set = free.pop().unwrap_or_else(|| {
+                sets.planes.push(0);
+                sets.planes.len() - 1
+            });
+            sets.planes[set] = sets.planes[set].max(member.stores.len());
+            sets.of_member.push(set);
+            let done = (0..=number).filter(|earlier| last_reader[*earlier] == number);
+            free.extend(done.map(|earlier| sets.of_member[earlier]));
+        }
+        sets
+    }
+}
+
+/// The rows that one thread computes with.
 struct Buffers {
-    rows: Vec<Vec<Plane>>,
+    sets: Vec<Vec<Plane>>,
     segment: usize,
 }
 
@@ -287,10 +354,59 @@ impl Buffers {
         let whole_rows = stage.members.iter().any(|member| member.needs_whole_rows)
             || !stage.handed_over.is_empty();
         let segment = if whole_rows { width as usize } else { SEGMENT.min(width as usize) };
-        let planes = |member: &Member| {
-            (0..member.stores.len()).map(|_| means.pool.plane(segment)).collect::<Result<_, _>>()
+        let planes = |count: &usize| {
+            (0..*count).map(|_| means.pool.plane(segment)).collect::<Result<_, _>>()
         };
-        let rows = stage.members.iter().map(planes).collect::<Result<_, _>>()?;
-        Ok(Self { rows, segment })
+        let sets = stage.sets.planes.iter().map(planes).collect::<Result<_, _>>()?;
+        Ok(Self { sets, segment })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Nothing;
+
+    impl RowKernel for Nothing {
+        fn row(&self, _: &RowContext, _: &InputRows<'_>, _: &mut OutputRow<'_>) {}
+    }
+
+    fn member(planes: usize, reads: &[usize]) -> Member {
+        let source = |member: &usize| RowSource::Member { member: *member, first_plane: 0, planes };
+        Member {
+            kernel: Box::new(Nothing),
+            sources: reads.iter().map(source).collect(),
+            stores: vec![Store::Unit; planes],
+            needs_whole_rows: false,
+        }
+    }
+
+    #[test]
+    fn a_chain_needs_two_buffers() {
+        let chain = [member(1, &[]), member(3, &[0]), member(1, &[1]), member(1, &[2])];
+        let BufferSets { of_member, planes } = BufferSets::new(&chain);
+        assert_eq!((of_member, planes), (vec![0, 1, 0, 1], vec![1, 3]));
+    }
+
+    #[test]
+    fn no_buffer_is_written_while_it_is_read() {
+        // 0 is read by 1 and by 4; 2 by nobody.
+        let stage = [
+            member(1, &[]),
+            member(1, &[0]),
+            member(1, &[1, 1]),
+            member(1, &[]),
+            member(1, &[0, 3]),
+        ];
+        let sets = BufferSets::new(&stage);
+        assert_eq!(sets.planes.len(), 3);
+        for (number, member) in stage.iter().enumerate() {
+            for source in &member.sources {
+                let RowSource::Member { member: read, .. } = source else { continue };
+                let kept = &sets.of_member[read + 1..=number];
+                assert!(!kept.contains(&sets.of_member[*read]), "{number} reads {read}");
+            }
+        }
     }
 }
