@@ -36,7 +36,7 @@ impl Entry {
 
 /// An entry for each wanted block whose first output is an image, in both precisions. Inputs get
 /// the cheapest source that gives what they take.
-pub(crate) fn entries(size: u32, filters: &[String]) -> Result<Vec<Entry>> {
+pub(crate) fn entries(size: (u32, u32), filters: &[String]) -> Result<Vec<Entry>> {
     let mut entries = Vec::new();
     let engine = work::engine(1, 0);
     for spec in engine.registry().blocks() {
@@ -47,7 +47,7 @@ pub(crate) fn entries(size: u32, filters: &[String]) -> Result<Vec<Entry>> {
         }
         for precision in [Precision::Float, Precision::EightBit] {
             let (graph, block) = alone(&engine, spec)?;
-            let (size, supersampling) = ((size, size), Some(1));
+            let supersampling = Some(1);
             let settings = Settings { block, size, threads: 1, precision, supersampling };
             let work = Work::new(graph, settings)?;
             entries.push(Entry { name: id.to_owned(), work });

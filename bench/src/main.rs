@@ -10,6 +10,7 @@
 //! rows marked `process` measure that.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program")]
 
+mod cancel;
 mod card;
 mod catalogue;
 mod definition;
@@ -53,6 +54,7 @@ fn run(options: &Options) -> Result<bool> {
     match options.mode {
         Mode::Check => check(&definitions, options),
         Mode::Bless => bless(&definitions, options),
+        Mode::Cancel => cancel::measure(&options.filters),
         Mode::Measure => measure(&definitions, options),
     }
 }
@@ -75,7 +77,7 @@ fn check(definitions: &[Definition], options: &Options) -> Result<bool> {
             }
         }
     }
-    for entry in catalogue::entries(64, &options.filters)? {
+    for entry in catalogue::entries((64, 64), &options.filters)? {
         if let Err(error) = entry.work.compute() {
             is_right = false;
             println!("FAILED  {}: {error}", entry.name);
@@ -119,7 +121,7 @@ fn measure(definitions: &[Definition], options: &Options) -> Result<bool> {
         }
     }
     for size in [1024, 2048] {
-        for entry in catalogue::entries(size, &options.filters)? {
+        for entry in catalogue::entries((size, size), &options.filters)? {
             add(entry.measure(options.runs)?);
         }
     }

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use crate::Result;
 
 const USAGE: &str = "\
-usage: ptlib-bench [--runs N] [--textures DIR] [--check | --bless | --record] [FILTER…]
+usage: ptlib-bench [--runs N] [--textures DIR] [--check | --bless | --cancel | --record] [FILTER…]
 
 Measures the rows whose name contains one of the filters, or all of them.
   --runs N        how often each row is run at most (default 9)
   --textures DIR  where the graphs of the rows are that are not part of the repository
   --check         compute everything once and compare hashes; measure nothing
   --bless         write the hashes of the results into the definitions
+  --cancel        measure how soon each block stops when it is asked to
   --record        write what was measured to bench/record";
 
 /// What to do.
@@ -20,6 +21,7 @@ pub(crate) enum Mode {
     Measure,
     Check,
     Bless,
+    Cancel,
 }
 
 /// The command line, read.
@@ -46,6 +48,7 @@ impl Options {
             match argument.as_str() {
                 "--check" => options.mode = Mode::Check,
                 "--bless" => options.mode = Mode::Bless,
+                "--cancel" => options.mode = Mode::Cancel,
                 "--record" => options.records = true,
                 "--runs" => options.runs = arguments.next().ok_or(USAGE)?.parse()?,
                 "--textures" => options.textures = Some(arguments.next().ok_or(USAGE)?.into()),

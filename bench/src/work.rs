@@ -9,8 +9,8 @@
 use std::time::Duration;
 
 use ptlib::{
-    BlockId, ComputeOptions, Engine, EngineOptions, Graph, Image, Limits, Precision,
-    run::OutputShape,
+    BlockId, Cancel, ComputeOptions, Engine, EngineOptions, Graph, Image, Limits, Precision,
+    block::BlockSpec, params::ParamValue, run::OutputShape,
 };
 
 use crate::{Result, card, measure::timed};
@@ -98,6 +98,33 @@ impl Work {
         let graph = &self.graphs[self.runs % 2];
         let (block, options) = (self.settings.block, self.options());
         timed(|| Ok(self.engine.compute(graph, block, 0, options).map(drop)?))
+    }
+
+    /// Gets ready for [`run_until`](Self::run_until): its inputs are in the cache afterwards.
+    pub(crate) fn warm_up(&self) -> Result {
+        for card in &self.cards {
+            self.engine.compute(&self.graphs[0], *card, 0, self.options())?;
+        }
+        Ok(())
+    }
+
+    /// Computes once more, or stops on request.
+    pub(crate) fn run_until(&self, cancel: Cancel) -> std::result::Result<(), ptlib::Error> {
+        let options = ComputeOptions { cancel: Some(cancel), ..self.options() };
+        self.engine.compute(&self.graphs[0], self.settings.block, 0, options).map(drop)
+    }
+
+    /// The type of the block that is computed.
+    pub(crate) fn spec(&self) -> Result<&'static BlockSpec> {
+        Ok(self.graphs[0].block(self.settings.block)?.spec().ok_or("a known type")?)
+    }
+
+    /// Sets a parameter of the block that is computed.
+    pub(crate) fn set(&mut self, param: &str, value: &ParamValue) -> Result {
+        for graph in &mut self.graphs {
+            graph.set(self.settings.block, param, value.clone())?;
+        }
+        Ok(())
     }
 
     /// What the graph says about itself.

@@ -9,8 +9,8 @@ use crate::{
 };
 
 /// Where a row (or a part of one) lies.
-#[derive(Debug, Clone, Copy)]
-pub struct RowContext {
+#[derive(Clone, Copy)]
+pub struct RowContext<'a> {
     /// Column of the first pixel.
     pub x: u32,
     /// Row.
@@ -19,6 +19,16 @@ pub struct RowContext {
     pub width: u32,
     /// Height of the whole image in pixels, supersampling included.
     pub height: u32,
+    pub(crate) progress: &'a dyn Progress,
+}
+
+impl RowContext<'_> {
+    /// Whether the computation is asked to stop: then nobody looks at what is written any more. The
+    /// engine asks before each row; only rows that may take more than a millisecond need to.
+    #[must_use]
+    pub fn is_stopped(&self) -> bool {
+        self.progress.check().is_err()
+    }
 }
 
 /// The files that a block's path parameters name, as the caller's file policy lets them be read.

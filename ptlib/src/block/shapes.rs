@@ -31,7 +31,7 @@ pub trait PointBlock: Sized + Send + Sync + 'static {
 
     /// Writes all of `out`, which may be any part of the row. Mark it `#[inline(always)]`, so that
     /// it is compiled for each SIMD level.
-    fn row<L: Levels>(&self, cx: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>);
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>);
 
     /// Whether the output is grey, for outputs declared
     /// [`Planes::ByParameters`](super::Planes::ByParameters).
@@ -61,7 +61,7 @@ pub trait GatherBlock: Sized + Send + Sync + 'static {
     fn prepare<L: Levels>(params: &Self::Params, cx: &PrepareContext<'_>) -> Result<Self, Error>;
 
     /// Writes all of `out`, which is a whole row. Mark it `#[inline(always)]`.
-    fn row<L: Levels>(&self, cx: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>);
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>);
 
     /// See [`PointBlock::is_grey`].
     fn is_grey(_params: &Self::Params) -> bool {
@@ -104,7 +104,7 @@ pub trait WholeBlock: 'static {
 /// A prepared block of shape Point or Gather: writes rows.
 pub trait RowKernel: Send + Sync {
     /// Writes all of `out`. Values are as the block made them: neither clamped nor truncated.
-    fn row(&self, cx: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>);
+    fn row(&self, cx: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>);
 }
 
 /// How the engine computes a block type.
@@ -190,7 +190,7 @@ macro_rules! row_shape {
                 struct Prepared<B, L>(B, SimdLevel, PhantomData<fn() -> L>);
                 struct Row<'a, 'i, 'o, B, L>(
                     &'a Prepared<B, L>,
-                    &'a RowContext,
+                    &'a RowContext<'a>,
                     &'a InputRows<'i>,
                     &'a mut OutputRow<'o>,
                 );
@@ -204,7 +204,7 @@ macro_rules! row_shape {
                 impl<B: $block, L: Levels> RowKernel for Prepared<B, L> {
                     fn row(
                         &self,
-                        cx: &RowContext,
+                        cx: &RowContext<'_>,
                         inputs: &InputRows<'_>,
                         out: &mut OutputRow<'_>,
                     ) {

@@ -178,19 +178,20 @@ impl Trial {
         let mut image = context.new_image(self.planes()?)?;
         let stores =
             vec![Store::of(self.precision, self.spec.about.outputs[0].is_free); image.planes()];
-        let width = self.width as usize;
+        let columns = self.width as usize;
         let mut planes: Vec<&mut [f32]> = image.planes_mut().collect();
         for y in 0..self.height {
-            for x in (0..width).step_by(self.piece.min(width)) {
-                let len = self.piece.min(width - x);
+            for x in (0..columns).step_by(self.piece.min(columns)) {
+                let len = self.piece.min(columns - x);
                 let ports: Vec<_> =
                     (0..self.inputs.len()).map(|i| self.row(i, x, y, len)).collect();
                 let out = planes.iter_mut().map(|plane| {
-                    let start = y as usize * width + x;
+                    let start = y as usize * columns + x;
                     &mut plane[start..start + len]
                 });
                 let x = u32::try_from(x).expect("a column of an image");
-                let place = RowContext { x, y, width: self.width, height: self.height };
+                let (width, height) = (self.width, self.height);
+                let place = RowContext { x, y, width, height, progress: &Alone };
                 let mut out = OutputRow::new(out, &stores);
                 kernel.row(&place, &InputRows::new(&ports), &mut out);
                 out.finish(self.simd);

@@ -270,6 +270,8 @@ impl<'a, 'g> Execution<'a, 'g> {
             Some(member) => self.plan.nodes[stage.members[member]].at(error),
             None => error,
         })?;
+        // A row may have been left half written because of a request that came after the last check.
+        self.means.monitor.check()?;
         drop(members);
         for (member, count) in stage.members.iter().zip(strange) {
             self.tell_strange(&self.plan.nodes[*member], count);
@@ -352,7 +354,7 @@ struct White;
 impl RowKernel for White {
     fn row(
         &self,
-        _: &crate::block::RowContext,
+        _: &crate::block::RowContext<'_>,
         _: &crate::block::InputRows<'_>,
         out: &mut crate::block::OutputRow<'_>,
     ) {

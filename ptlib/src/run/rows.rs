@@ -188,7 +188,8 @@ impl StageRows<'_> {
             let mut x = 0;
             while x < width {
                 let len = buffers.segment.min((width - x) as usize);
-                let segment = Segment { cx: RowContext { x, y, width, height }, len };
+                let cx = RowContext { x, y, width, height, progress: means.monitor };
+                let segment = Segment { cx, len };
                 let offset = row as usize * width as usize + x as usize;
                 for (number, strange) in strange.iter().enumerate() {
                     *at = Some(number);
@@ -214,7 +215,7 @@ impl StageRows<'_> {
         &self,
         simd: SimdLevel,
         number: usize,
-        segment: &Segment,
+        segment: &Segment<'_>,
         buffers: &mut Buffers,
         target: Option<(&mut [&mut [f32]], usize)>,
     ) -> u64 {
@@ -247,7 +248,7 @@ impl StageRows<'_> {
     fn write<const PORTS: usize>(
         &self,
         member: &Member,
-        segment: &Segment,
+        segment: &Segment<'_>,
         buffers: &Buffers,
         out: &mut OutputRow<'_>,
     ) {
@@ -301,8 +302,8 @@ pub(super) const MAX_PORTS: usize = 16;
 const FEW_PORTS: usize = 3;
 
 /// A part of a row.
-struct Segment {
-    cx: RowContext,
+struct Segment<'a> {
+    cx: RowContext<'a>,
     len: usize,
 }
 
@@ -369,7 +370,7 @@ mod tests {
     struct Nothing;
 
     impl RowKernel for Nothing {
-        fn row(&self, _: &RowContext, _: &InputRows<'_>, _: &mut OutputRow<'_>) {}
+        fn row(&self, _: &RowContext<'_>, _: &InputRows<'_>, _: &mut OutputRow<'_>) {}
     }
 
     fn member(planes: usize, reads: &[usize]) -> Member {

@@ -1,8 +1,8 @@
 //! The engine on blocks made for it: each shape, several outputs, and blocks that misbehave.
 
-use std::{cell::Cell, sync::Mutex};
+use std::{cell::Cell, sync::Mutex, time::Duration};
 
-use super::{Cancel, ComputeOptions, Engine, EngineOptions, LogLevel, PixelsMut};
+use super::{Cancel, ComputeOptions, Engine, EngineOptions, LogLevel, PixelsMut, ProgressReport};
 use crate::{
     block::{Family, prelude::*},
     graph::{BlockId, Graph},
@@ -47,7 +47,7 @@ impl PointBlock for Ramp {
         Ok(Self)
     }
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (x, value) in (cx.x..).zip(out.plane(0)) {
             *value = convert::pixels(x) / convert::pixels(cx.width);
         }
@@ -71,7 +71,7 @@ impl PointBlock for Add {
         Ok(Self(convert::single(params.amount)))
     }
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         out.map(inputs, 0, |value| value + self.0);
     }
 }
@@ -90,7 +90,7 @@ impl GatherBlock for Below {
         Ok(Self(cx.image(0)?.clone()))
     }
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (channel, out) in out.iter_mut().enumerate() {
             out.copy_from_slice(self.0.row(channel, (cx.y + 1) % cx.height));
             if inputs.is_connected(1) {
@@ -138,9 +138,27 @@ impl PointBlock for Bad {
         Ok(Self(params.amount))
     }
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         assert!(self.0 == 3.0 || cx.y < 5, "as asked in row {}", cx.y);
         out.grey().fill(f32::NAN);
+    }
+}
+
+/// Writes rows until it is asked to stop.
+struct Endless;
+static ENDLESS: BlockSpec = BlockSpec::point::<Endless>(About {
+    id: "endless",
+    outputs: &[output("image", Planes::Grey)],
+    ..About::DEFAULT
+});
+impl PointBlock for Endless {
+    type Params = Nothing;
+    fn prepare<L: Levels>(_: &Nothing, _: &PrepareContext<'_>) -> Result<Self, Error> {
+        Ok(Self)
+    }
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+        out.grey().fill(0.25);
+        while !cx.is_stopped() {}
     }
 }
 
@@ -159,7 +177,7 @@ impl WholeBlock for Words {
 }
 
 static FAMILY: Family =
-    Family { name: "tests", blocks: &[&RAMP, &ADD, &BELOW, &MEAN, &BAD, &WORDS] };
+    Family { name: "tests", blocks: &[&RAMP, &ADD, &BELOW, &MEAN, &BAD, &ENDLESS, &WORDS] };
 
 fn engine(cache_bytes: u64) -> Engine {
     let engine = Engine::new(EngineOptions { threads: 4, cache_bytes, ..Default::default() });
@@ -362,6 +380,28 @@ fn outputs_that_a_block_forgets_are_a_defect_of_it() {
 }
 
 #[test]
+fn a_row_hears_the_request_to_stop_and_is_not_kept() {
+    let engine = engine(1 << 20);
+    let (graph, ids) = graph(&engine, &[("endless", &[])]);
+    // Had anything been kept, the second time would give it.
+    for threads in [1, 1, 2, 2] {
+        let mut calls = 0;
+        let mut stop_soon = |_: &ProgressReport| {
+            calls += 1;
+            calls < 3
+        };
+        let options = ComputeOptions {
+            threads,
+            progress: Some(&mut stop_soon),
+            progress_interval: Duration::ZERO,
+            ..Default::default()
+        };
+        let error = engine.compute(&graph, ids[0], 0, options).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Cancelled);
+    }
+}
+
+#[test]
 fn cancelling_stops_and_progress_is_told_here() {
     let engine = engine(0);
     let (mut graph, ids) = graph(&engine, MIXED);
@@ -381,7 +421,7 @@ fn cancelling_stops_and_progress_is_told_here() {
     };
     let options = ComputeOptions {
         progress: Some(&mut tell),
-        progress_interval: std::time::Duration::ZERO,
+        progress_interval: Duration::ZERO,
         ..Default::default()
     };
     engine.compute(&graph, ids[5], 0, options).unwrap();
@@ -396,7 +436,7 @@ fn cancelling_stops_and_progress_is_told_here() {
     };
     let options = ComputeOptions {
         progress: Some(&mut stop),
-        progress_interval: std::time::Duration::ZERO,
+        progress_interval: Duration::ZERO,
         ..Default::default()
     };
     let error = engine.compute(&graph, ids[5], 0, options).unwrap_err();

@@ -42,12 +42,6 @@ pub(super) const EXCEPTIONS: &[Exception] = &[
     },
     Exception {
         rule: Rule::Parameters,
-        path: "ptlib/src/run/rows.rs",
-        item: "run_member",
-        reason: "the state of the innermost loop, parts of it borrowed to be changed",
-    },
-    Exception {
-        rule: Rule::Parameters,
         path: "ptlib/src/run/nodes.rs",
         item: "resolve_one",
         reason: "the step of a loop, which borrows what the loop collects",

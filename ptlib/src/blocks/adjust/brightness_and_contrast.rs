@@ -56,7 +56,7 @@ impl PointBlock for BrightnessAndContrast {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let Self { gain, offset, slope, middle } = *self;
         out.map(inputs, IMAGE, |value| (value * gain + offset) * slope + middle);
     }

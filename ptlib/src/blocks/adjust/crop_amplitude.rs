@@ -39,7 +39,7 @@ impl PointBlock for CropAmplitude {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let Self { lower, upper } = *self;
         out.map(inputs, IMAGE, |value| {
             // Not `clamp`, which cannot do with crossed limits.

@@ -30,7 +30,7 @@ impl PointBlock for Invert {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         out.map(inputs, IMAGE, |value| 1.0 - value);
     }
 }

@@ -38,7 +38,7 @@ impl PointBlock for ColorFill {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (plane, value) in out.iter_mut().zip(self.0) {
             plane.fill(value);
         }

@@ -52,7 +52,7 @@ impl PointBlock for MapTransition {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let image = inputs.channel(IMAGE, 0);
         for (channel, out) in self.channels.iter().zip(out.rgb()) {
             for (out, value) in out.iter_mut().zip(image) {

@@ -36,7 +36,7 @@ impl PointBlock for SaveFile {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         out.map(inputs, IMAGE, |value| value);
     }
 }

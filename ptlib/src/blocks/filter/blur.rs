@@ -88,7 +88,7 @@ impl GatherBlock for Blur {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (channel, out) in out.iter_mut().enumerate() {
             match self {
                 Self::Nothing(image) => out.copy_from_slice(image.row(channel, cx.y)),

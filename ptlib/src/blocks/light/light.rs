@@ -106,7 +106,7 @@ impl PointBlock for Light {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         match self.curve {
             ReflectionCurve::CosineSmooth => {
                 self.lit::<L>(cx, inputs, out, |q| f32::midpoint(q, 1.0));
@@ -133,7 +133,7 @@ impl Light {
     #[inline(always)]
     fn lit<L: Levels>(
         &self,
-        cx: &RowContext,
+        cx: &RowContext<'_>,
         inputs: &InputRows<'_>,
         out: &mut OutputRow<'_>,
         curve: impl Fn(f32) -> f32,

@@ -61,7 +61,7 @@ impl GatherBlock for NormalMap {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let [red, green, blue] = out.rgb();
         #[expect(clippy::cast_precision_loss, reason = "24 bits of a slope are enough")]
         let slope = |sum: i64| sum as f32 * self.to_slope;

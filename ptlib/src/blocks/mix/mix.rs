@@ -86,7 +86,7 @@ impl PointBlock for Mix {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         match self.method {
             Method::Add => self.mix::<L>(inputs, out, |a, b, _| a + b),
             Method::Subtract => self.mix::<L>(inputs, out, |a, b, _| a - b),

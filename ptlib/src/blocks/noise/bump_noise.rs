@@ -78,7 +78,7 @@ impl PointBlock for BumpNoise {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let out = out.grey();
         out.fill(0.0);
         for size in &self.sizes {
@@ -132,10 +132,11 @@ fn by_row(drawn: &[Middle], height: u32) -> (Vec<Middle>, Vec<usize>) {
 impl Size {
     /// Adds to `sums` what the bumps subtract there, in levels.
     #[inline(always)]
-    fn add<L: Levels>(&self, cx: &RowContext, sums: &mut [f32]) {
+    fn add<L: Levels>(&self, cx: &RowContext<'_>, sums: &mut [f32]) {
         let reach = self.radius - 1;
         // Middles in rows y - reach ..= y + reach, which may pass the edges, even several times.
         let mut row = i64::from(cx.y) - reach;
+        let mut added = 0_u32;
         while row <= i64::from(cx.y) + reach {
             let first = convert::wrap(row, cx.height);
             let rows = (i64::from(cx.y) + reach + 1 - row).min(i64::from(cx.height - first));
@@ -144,6 +145,10 @@ impl Size {
             for middle in &self.middles[self.starts[first as usize]..self.starts[end]] {
                 let down = row + i64::from(middle.y - first) - i64::from(cx.y);
                 self.add_bump::<L>(cx, middle.x, down, sums);
+                added += 1;
+                if added.is_multiple_of(64) && cx.is_stopped() {
+                    return;
+                }
             }
             row += rows;
         }
@@ -151,7 +156,7 @@ impl Size {
 
     /// Adds a bump with its middle in column `x`, `down` rows from here.
     #[inline(always)]
-    fn add_bump<L: Levels>(&self, cx: &RowContext, x: u32, down: i64, sums: &mut [f32]) {
+    fn add_bump<L: Levels>(&self, cx: &RowContext<'_>, x: u32, down: i64, sums: &mut [f32]) {
         let (width, left) = (i64::from(cx.width), i64::from(cx.x));
         let right = left + sums.len() as i64;
         let reach = self.half_chord(down);

@@ -54,7 +54,7 @@ impl PointBlock for LatticeNoise {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         self.write_row::<L>(cx, out.grey());
     }
 

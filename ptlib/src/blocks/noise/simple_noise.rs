@@ -39,7 +39,7 @@ impl PointBlock for SimpleNoise {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         // Draws go pixel by pixel, and channel by channel in a pixel; their indices wrap.
         let channels = convert::low_bits(out.planes() as u64);
         let pixel = u64::from(cx.y) * u64::from(cx.width) + u64::from(cx.x);

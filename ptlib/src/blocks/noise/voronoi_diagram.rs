@@ -133,7 +133,7 @@ impl PointBlock for Voronoi {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let out = out.grey();
         let Some(cells) = &self.cells else {
             // Infinitely far from every point.
@@ -174,7 +174,7 @@ fn place(params: &Params, cx: &PrepareContext<'_>) -> Result<Vec<(u32, u32)>, Er
 
 impl Voronoi {
     #[inline(always)]
-    fn write<M: Measure>(&self, cells: &Cells, cx: &RowContext, out: &mut [f32]) {
+    fn write<M: Measure>(&self, cells: &Cells, cx: &RowContext<'_>, out: &mut [f32]) {
         match self.shows {
             Shows::Distance => cells.nearest::<M>(cx, out, |nearest, _| {
                 let value = M::distance(nearest) * self.unit;

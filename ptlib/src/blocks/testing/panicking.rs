@@ -28,7 +28,7 @@ impl PointBlock for Panicking {
         Ok(Self)
     }
 
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, _: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, _: &mut OutputRow<'_>) {
         panic!("test panic in row {}", cx.y);
     }
 }

@@ -40,6 +40,9 @@ pub static BLOCK: BlockSpec = BlockSpec::gather::<CircleTransform>(About {
 /// Pixels that jump side by side, so that most of their arithmetic is vectorised.
 const PIECE: usize = 64;
 
+/// With as many jumps, a piece takes long enough to ask whether to go on.
+const MANY_JUMPS: u32 = 64;
+
 struct CircleTransform {
     image: Image,
     jumps: u32,
@@ -72,13 +75,16 @@ impl GatherBlock for CircleTransform {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         if self.jumps == 0 {
             out.iter_mut().for_each(|plane| plane.fill(1.0));
             return;
         }
         let count = out.plane(0).len();
         for start in (0..count).step_by(PIECE) {
+            if self.jumps >= MANY_JUMPS && cx.is_stopped() {
+                return;
+            }
             let end = count.min(start + PIECE);
             let sources = self.sources::<L>(cx, start);
             for (channel, out) in out.iter_mut().enumerate() {
@@ -94,7 +100,7 @@ impl GatherBlock for CircleTransform {
 impl CircleTransform {
     /// Where pixels from number `start` of the row on end after all jumps: places in the image.
     #[inline(always)]
-    fn sources<L: Levels>(&self, cx: &RowContext, start: usize) -> [usize; PIECE] {
+    fn sources<L: Levels>(&self, cx: &RowContext<'_>, start: usize) -> [usize; PIECE] {
         let (width, height) = (cx.width.cast_signed(), cx.height.cast_signed());
         // A whole piece jumps, also where the row ends before: further pixels are on other turns.
         let first = (cx.x as usize + start) as i64;

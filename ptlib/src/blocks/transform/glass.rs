@@ -44,7 +44,7 @@ impl GatherBlock for Glass {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let [nx, ny, nz] = inputs.rgb(NORMALS);
         let count = out.plane(0).len();
         let mut sources = [0; PIECE];

@@ -60,7 +60,7 @@ impl GatherBlock for Tile {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let y = cx.y % self.reduced.height();
         for (channel, out) in out.iter_mut().enumerate() {
             let row = self.reduced.row(channel, y);

@@ -111,7 +111,7 @@ impl LatticeNoise {
 
     /// Writes a part of a row, 0..1.
     #[inline(always)]
-    pub(in crate::blocks) fn write_row<L: Levels>(&self, cx: &RowContext, out: &mut [f32]) {
+    pub(in crate::blocks) fn write_row<L: Levels>(&self, cx: &RowContext<'_>, out: &mut [f32]) {
         let mut scratch = Scratch::new();
         let mut x = cx.x as usize;
         for out in out.chunks_mut(CHUNK) {

@@ -328,7 +328,7 @@ impl Cells {
     #[inline(always)]
     pub(super) fn nearest<M: Measure>(
         &self,
-        cx: &RowContext,
+        cx: &RowContext<'_>,
         out: &mut [f32],
         shown: impl Fn(f32, f32) -> f32,
     ) {
@@ -365,7 +365,7 @@ impl Cells {
     #[inline(always)]
     pub(super) fn nearest_two<M: Measure>(
         &self,
-        cx: &RowContext,
+        cx: &RowContext<'_>,
         out: &mut [f32],
         shown: impl Fn(f32, f32) -> f32,
     ) {
@@ -392,7 +392,7 @@ impl Cells {
 
     /// The tiles that `len` pixels of a row lie in, from left to right.
     #[inline(always)]
-    fn tiles(&self, cx: &RowContext, len: usize) -> impl Iterator<Item = Tile<'_>> {
+    fn tiles(&self, cx: &RowContext<'_>, len: usize) -> impl Iterator<Item = Tile<'_>> {
         let (left, right) = (cx.x as usize, cx.x as usize + len);
         let row = &self.tiles[cx.y as usize / SIDE * self.across..][..self.across];
         (left / SIDE..right.div_ceil(SIDE)).map(move |number| {

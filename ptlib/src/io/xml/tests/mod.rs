@@ -58,7 +58,7 @@ impl PointBlock for Plain {
     fn prepare<L: Levels>(_: &Nothing, _: &PrepareContext<'_>) -> Result<Self, Error> {
         Ok(Self)
     }
-    fn row<L: Levels>(&self, _: &RowContext, _: &InputRows<'_>, _: &mut OutputRow<'_>) {}
+    fn row<L: Levels>(&self, _: &RowContext<'_>, _: &InputRows<'_>, _: &mut OutputRow<'_>) {}
 }
 
 impl PointBlock for Knobbed {
@@ -66,7 +66,7 @@ impl PointBlock for Knobbed {
     fn prepare<L: Levels>(_: &Knobs, _: &PrepareContext<'_>) -> Result<Self, Error> {
         Ok(Self)
     }
-    fn row<L: Levels>(&self, _: &RowContext, _: &InputRows<'_>, _: &mut OutputRow<'_>) {}
+    fn row<L: Levels>(&self, _: &RowContext<'_>, _: &InputRows<'_>, _: &mut OutputRow<'_>) {}
 }
 
 const IMAGE: crate::block::InputPort = input("image", Kind::Image);
