@@ -125,7 +125,7 @@ impl FileAccess {
         let allowed = list(self.folder.iter().chain(&self.read_folders));
         let message = format!("may not read \"{path}\": files may be read below {allowed}");
         Error::new(ErrorKind::Denied, message).with_hint(
-            "open its folder with `EngineOptions::read_folders` or `ptc --allow-read DIR`",
+            "open its folder: `read_folders` of the engine's options, or `ptc --allow-read DIR`",
         )
     }
 
@@ -133,7 +133,7 @@ impl FileAccess {
         let allowed = list(self.write_folders.iter());
         let message = format!("may not write \"{path}\": files may be written below {allowed}");
         Error::new(ErrorKind::Denied, message).with_hint(
-            "open its folder with `EngineOptions::write_folders` or `ptc --allow-write DIR`",
+            "open its folder: `write_folders` of the engine's options, or `ptc --allow-write DIR`",
         )
     }
 }
@@ -380,7 +380,7 @@ mod tests {
         let error = access.resolve_write("out.png").unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Denied);
         assert!(error.to_string().contains("below no folder"), "{error}");
-        assert!(error.to_string().contains("`EngineOptions::write_folders`"), "{error}");
+        assert!(error.to_string().contains("`write_folders`"), "{error}");
 
         access.write_folders = vec![folder.path("more"), folder.path("graphs")];
         let expected = fs::canonicalize(folder.path("more")).unwrap().join("out.png");
