@@ -26,7 +26,6 @@ const PENDING: &[&str] = &[
     "emboss",
     "fault formation noise",
     "geometric transform",
-    "grayscale",
     "l-system",
     "marble",
     "mix channels",
