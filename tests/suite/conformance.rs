@@ -33,7 +33,6 @@ const PENDING: &[&str] = &[
     "radius transform",
     "replace colors",
     "sharpen",
-    "sine transform",
     "square mosaic",
     "substrate",
     "turtle",

@@ -1,3 +1,3 @@
 //! Blocks that change values pixel by pixel.
 
-crate::family!("adjust": brightness_and_contrast, crop_amplitude, grayscale, invert);
+crate::family!("adjust": brightness_and_contrast, crop_amplitude, grayscale, invert, sine_transform);
