@@ -29,7 +29,6 @@ const PENDING: &[&str] = &[
     "mix channels",
     "particles",
     "radius transform",
-    "replace colors",
     "sharpen",
     "square mosaic",
     "substrate",
