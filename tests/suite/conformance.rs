@@ -26,7 +26,6 @@ const PENDING: &[&str] = &[
     "geometric transform",
     "l-system",
     "marble",
-    "mix channels",
     "particles",
     "radius transform",
     "sharpen",
