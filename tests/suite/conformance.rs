@@ -15,9 +15,6 @@ use crate::picture::{Levels, folder};
 
 /// Block types of PT Designer that are not there yet. A case that needs one is pending.
 const PENDING: &[&str] = &[
-    "cellular automaton cyclic",
-    "cellular automaton general",
-    "cellular automaton rps",
     "convolution",
     "dither",
     "edge detection",
