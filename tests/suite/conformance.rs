@@ -16,7 +16,6 @@ use crate::picture::{Levels, folder};
 /// Block types of PT Designer that are not there yet. A case that needs one is pending.
 const PENDING: &[&str] = &[
     "convolution",
-    "dither",
     "edge detection",
     "emboss",
     "fault formation noise",

@@ -112,9 +112,9 @@ fn rgb_of([hue, saturation, lightness]: [f64; 3]) -> [f64; 3] {
     let in_third = sixths - 2.0 * (sixths * 0.5).floor();
     let second = chroma * (1.0 - (in_third - 1.0).abs());
     let least = lightness - chroma / 2.0;
-    let red = if sixths < 1.0 || sixths >= 5.0 {
+    let red = if !(1.0..5.0).contains(&sixths) {
         chroma
-    } else if sixths < 2.0 || sixths >= 4.0 {
+    } else if !(2.0..4.0).contains(&sixths) {
         second
     } else {
         0.0
