@@ -1,6 +1,7 @@
 //! The built-in blocks, by family: one file a block.
 
 mod adjust;
+mod automaton;
 mod color;
 mod files;
 mod filter;
@@ -17,6 +18,7 @@ use crate::block::Family;
 /// Every family of built-in blocks.
 pub static FAMILIES: &[&Family] = &[
     &adjust::FAMILY,
+    &automaton::FAMILY,
     &color::FAMILY,
     &files::FAMILY,
     &filter::FAMILY,

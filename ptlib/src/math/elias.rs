@@ -19,6 +19,16 @@ pub fn noise64(k: i32) -> f64 {
     1.0 - f64::from(hash(k)) / 1_073_741_824.0
 }
 
+/// The whole number from 0 to `last` at index `k`; the two ends have half the weight of the others
+/// (specification 0, `UI`).
+#[inline(always)]
+#[must_use]
+pub fn integer(k: i32, last: u16) -> i32 {
+    // Exact: 31 bits of the hash times 16. Not negative, so that adding a half rounds.
+    let unit = (noise64(k) + 1.0) * 0.5;
+    super::convert::truncate64_to_i32(unit * f64::from(last) + 0.5)
+}
+
 #[inline(always)]
 fn hash(k: i32) -> i32 {
     let k = k.wrapping_shl(13) ^ k;
@@ -65,6 +75,17 @@ mod tests {
     fn first_number_is_the_one_of_the_specification() {
         assert!((noise64(0) + 0.28179).abs() < 1e-5);
         assert!((noise(0) + 0.28179).abs() < 1e-5);
+    }
+
+    #[test]
+    fn integers_are_those_of_successive_draws() {
+        for last in [0, 1, 2, 119, 255, u16::MAX] {
+            let mut draws = Draws::from_index(-500);
+            for k in -500..500 {
+                let expected = draws.next_integer(0, last.into());
+                assert_eq!(i64::from(integer(k, last)), expected, "draw {k} up to {last}");
+            }
+        }
     }
 
     #[test]

@@ -5,6 +5,8 @@
 //! implementation of each block: a block is written over [`Levels`], and the engine picks
 //! [`EightBit`] or [`Continuous`].
 
+use super::convert::truncate64_to_i32;
+
 /// What a graph computes in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Precision {
@@ -88,9 +90,25 @@ pub fn from_level(level: f32) -> f32 {
     level / 255.0
 }
 
+/// How light a colour of values 0..1 is, 0..1; in 8-bit precision a level, truncated.
+///
+/// Specification 0, `luma`. The weight of red is that of PT Designer, not the usual 0.299, so that
+/// white gives 237/255 only; files are tuned to that.
+#[inline(always)]
+#[must_use]
+pub fn luma<L: Levels>(rgb: [f32; 3]) -> f32 {
+    if !L::EIGHT_BIT {
+        return 0.229 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
+    }
+    // Where the sum is a whole level, double precision decides whether it falls short of it.
+    let [red, green, blue] = rgb.map(|value| f64::from(to_level(value)));
+    let level = truncate64_to_i32(0.229 * red + 0.587 * green + 0.114 * blue);
+    from_level(super::convert::level(level))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::convert, *};
 
     #[test]
     fn every_level_survives_storing() {
@@ -99,6 +117,17 @@ mod tests {
             assert_eq!(EightBit::store(value), value, "level {level}");
             assert_eq!(to_level(value), f32::from(level));
         }
+    }
+
+    #[test]
+    fn luma_follows_the_vectors_of_the_specification() {
+        for (level, expected) in [(64, 59), (100, 93), (128, 119), (200, 186), (255, 237)] {
+            let value = from_level(convert::level(level));
+            assert_eq!(to_level(luma::<EightBit>([value; 3])), convert::level(expected));
+            assert!((luma::<Continuous>([value; 3]) - 0.93 * value).abs() < 1e-6);
+        }
+        let luma = luma::<EightBit>([10.0, 20.0, 30.0].map(from_level));
+        assert_eq!(to_level(luma), 17.0, "17.45 is truncated");
     }
 
     #[test]

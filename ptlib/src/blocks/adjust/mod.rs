@@ -1,3 +1,5 @@
 //! Blocks that change values pixel by pixel.
 
-crate::family!("adjust": brightness_and_contrast, crop_amplitude, invert);
+crate::family!("adjust": adjust_hsl, adjust_rgb, brightness_and_contrast, crop_amplitude, dither, grayscale, invert, replace_colors, sine_transform);
+
+mod dithering;

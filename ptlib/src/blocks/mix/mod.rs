@@ -1,3 +1,3 @@
 //! Blocks that make one picture of several.
 
-crate::family!("mix": mix);
+crate::family!("mix": mix, mix_channels);
