@@ -1,7 +1,7 @@
 /* Builds a graph by hand, computes it, and saves the graph and its picture.
  *
- * Bump noise becomes the red of the picture, a Voronoi diagram the green, and that diagram sent
- * through a circle transform the blue. Each is multiplied with its colour; the sum is the result.
+ * Bump noise becomes the red channel of the picture, a Voronoi diagram the green one, and that
+ * diagram sent through a circle transform the blue one.
  *
  * SPDX-License-Identifier: MIT OR Apache-2.0
  */
@@ -10,34 +10,10 @@
 
 #include <ptlib/ptlib.h>
 
-/* Adds a block that mixes two others. Every step returns a status; the first failure ends it. */
-static ptl_status add_mix(ptl_graph *graph, const char *method, ptl_block first, ptl_block second,
-                          ptl_block *mix, ptl_error **error)
-{
-    ptl_status status = ptl_graph_add_block(graph, "mix", mix, error);
-    if (status == PTL_OK) status = ptl_graph_set_text(graph, *mix, "method", method, error);
-    if (status == PTL_OK) status = ptl_graph_connect(graph, first, 0, *mix, 0, error);
-    if (status == PTL_OK) status = ptl_graph_connect(graph, second, 0, *mix, 1, error);
-    return status;
-}
-
-/* Adds blocks that give `source` in one colour. */
-static ptl_status add_tint(ptl_graph *graph, ptl_block source, const int64_t colour[3],
-                           ptl_block *tint, ptl_error **error)
-{
-    ptl_block fill = 0;
-    ptl_status status = ptl_graph_add_block(graph, "color fill", &fill, error);
-    if (status == PTL_OK) status = ptl_graph_set_int(graph, fill, "red", colour[0], error);
-    if (status == PTL_OK) status = ptl_graph_set_int(graph, fill, "green", colour[1], error);
-    if (status == PTL_OK) status = ptl_graph_set_int(graph, fill, "blue", colour[2], error);
-    if (status == PTL_OK) status = add_mix(graph, "multiply", source, fill, tint, error);
-    return status;
-}
-
+/* Every step returns a status; the first failure ends it. */
 static ptl_status build(ptl_graph *graph, ptl_block *result, ptl_error **error)
 {
-    static const int64_t red[3] = {255, 0, 0}, green[3] = {0, 255, 0}, blue[3] = {0, 0, 255};
-    ptl_block bumps = 0, cells = 0, circles = 0, r = 0, g = 0, b = 0, sum = 0;
+    ptl_block bumps = 0, cells = 0, circles = 0, colours = 0;
     const double size = 0.3;
 
     ptl_status status = ptl_graph_set_size(graph, 256, 256, error);
@@ -49,13 +25,12 @@ static ptl_status build(ptl_graph *graph, ptl_block *result, ptl_error **error)
         status = ptl_graph_set_int(graph, cells, "number of points", 30, error);
     if (status == PTL_OK) status = ptl_graph_add_block(graph, "circle transform", &circles, error);
     if (status == PTL_OK) status = ptl_graph_connect(graph, cells, 0, circles, 0, error);
-    if (status == PTL_OK) status = add_tint(graph, bumps, red, &r, error);
-    if (status == PTL_OK) status = add_tint(graph, cells, green, &g, error);
-    if (status == PTL_OK) status = add_tint(graph, circles, blue, &b, error);
-    if (status == PTL_OK) status = add_mix(graph, "add", r, g, &sum, error);
-    if (status == PTL_OK) status = add_mix(graph, "add", sum, b, &sum, error);
+    if (status == PTL_OK) status = ptl_graph_add_block(graph, "mix channels", &colours, error);
+    if (status == PTL_OK) status = ptl_graph_connect(graph, bumps, 0, colours, 0, error);
+    if (status == PTL_OK) status = ptl_graph_connect(graph, cells, 0, colours, 1, error);
+    if (status == PTL_OK) status = ptl_graph_connect(graph, circles, 0, colours, 2, error);
     if (status == PTL_OK) status = ptl_graph_add_block(graph, "end", result, error);
-    if (status == PTL_OK) status = ptl_graph_connect(graph, sum, 0, *result, 0, error);
+    if (status == PTL_OK) status = ptl_graph_connect(graph, colours, 0, *result, 0, error);
     return status;
 }
 

@@ -205,7 +205,7 @@ fn notes(block: &BlockDescription) -> Vec<String> {
         "writer" => notes.push("It writes a file, where `--allow-write` lets it.".to_owned()),
         _ => {}
     }
-    match block.tiling_exception {
+    match &block.tiling_exception {
         Some(exception) => notes.push(format!("Tiling: {exception}")),
         None => notes.push("Tiling: its output tiles when its inputs do.".to_owned()),
     }

@@ -29,7 +29,7 @@ pub(crate) struct BlockDescription {
     pub(crate) tiles: bool,
     /// When and why it does not tile.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) tiling_exception: Option<&'static str>,
+    pub(crate) tiling_exception: Option<String>,
     /// Which lengths count pixels, so that the picture depends on the resolution.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub(crate) in_pixels: &'static str,
@@ -115,7 +115,8 @@ impl BlockDescription {
         let about = &spec.about;
         let tiling_exception = match about.tiling {
             Tiling::Always => None,
-            Tiling::Except(exception) => Some(exception),
+            Tiling::ExceptInEightBit(exception) => Some(format!("in 8-bit precision {exception}")),
+            Tiling::Except(exception) => Some(exception.to_owned()),
         };
         Self {
             id: about.id,

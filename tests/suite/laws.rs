@@ -2,7 +2,7 @@
 
 use ptlib::{
     ComputeOptions, Engine, EngineOptions, Image, Precision,
-    block::{BlockSpec, Planes, Tiling},
+    block::{BlockSpec, Planes},
     math::simd::SimdLevel,
     params::{ParamKind, ParamSpec, ParamValue},
     value::{Kind, Value},
@@ -249,29 +249,45 @@ fn row_steps(image: &Image) -> Vec<f32> {
 #[test]
 fn outputs_tile() {
     let engine = engine();
+    let mut random = Random(0x2545_f491_4f6c_dd1d);
     for spec in engine.registry().blocks() {
-        if let Tiling::Except(reason) = spec.about.tiling {
-            println!("{}: {reason}", spec.about.id);
-            continue;
-        }
         for (precision, seed) in [(Precision::Float, 1), (Precision::EightBit, 2)] {
+            let id = spec.about.id;
+            if let Some(reason) = spec.about.tiling.exception(precision) {
+                println!("{id}, {precision:?}: {reason}");
+                continue;
+            }
             let mut specimen = Specimen::new(&engine, spec, 128, 96).precision(precision);
             specimen.graph.set_seed(seed);
-            let value = compute(&engine, &specimen, ComputeOptions::default());
-            let Value::Image(image) = value else { continue };
-            for (mut steps, edge) in
-                [(column_steps(&image), "right edge"), (row_steps(&image), "bottom edge")]
-            {
-                let across = steps.pop().expect("no image is empty");
-                // No step inside is as large as a seam: the largest one bounds that across.
-                let inside = steps.into_iter().fold(0.0, f32::max);
-                assert!(
-                    across <= inside * 1.25 + 1e-6,
-                    "{}: steps of {across} across the {edge}, of at most {inside} inside",
-                    spec.about.id
-                );
+            let mut what = format!("{id}, {precision:?}");
+            for _ in 0..8 {
+                let value = compute(&engine, &specimen, ComputeOptions::default());
+                check_edges(&value, &what);
+                what = format!("{id}, {precision:?}");
+                for param in spec.params {
+                    if let Some(value) = random_value(param, &mut random) {
+                        what += &format!(", {} = {value:?}", param.id);
+                        specimen.graph.set(specimen.block, param.id, value).expect(&what);
+                    }
+                }
             }
         }
+    }
+}
+
+/// Fails if there is a seam where an image meets itself.
+fn check_edges(value: &Value, what: &str) {
+    let Value::Image(image) = value else { return };
+    for (mut steps, edge) in
+        [(column_steps(image), "right edge"), (row_steps(image), "bottom edge")]
+    {
+        let across = steps.pop().expect("no image is empty");
+        // No step inside is as large as a seam: the largest one bounds that across.
+        let inside = steps.into_iter().fold(0.0, f32::max);
+        assert!(
+            across <= inside * 1.25 + 1e-6,
+            "{what}: steps of {across} across the {edge}, of at most {inside} inside"
+        );
     }
 }
 

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::{GatherBlock, Implementation, PointBlock, WholeBlock, shapes};
 use crate::{
+    math::levels::Precision,
     params::{ParamSet, ParamSpec},
     value::Kind,
 };
@@ -108,8 +109,23 @@ impl OutputPort {
 pub enum Tiling {
     /// Always: what every block is expected to do.
     Always,
+    /// In float precision always; in 8-bit precision, which keeps what PT Designer did, not: when it
+    /// does not, and why.
+    ExceptInEightBit(&'static str),
     /// Not always: when it does not, and why, in one sentence.
     Except(&'static str),
+}
+
+impl Tiling {
+    /// Why the output need not tile in that precision.
+    #[must_use]
+    pub fn exception(self, precision: Precision) -> Option<&'static str> {
+        match self {
+            Self::ExceptInEightBit(reason) if precision == Precision::EightBit => Some(reason),
+            Self::Except(reason) => Some(reason),
+            Self::ExceptInEightBit(_) | Self::Always => None,
+        }
+    }
 }
 
 /// What a block is for in its graph.

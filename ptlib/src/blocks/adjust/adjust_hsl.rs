@@ -48,7 +48,7 @@ impl PointBlock for AdjustHsl {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let value = |value: f32| {
             if L::EIGHT_BIT {
                 f64::from(levels::to_level(value)) / 255.0

@@ -40,7 +40,7 @@ impl PointBlock for AdjustRgb {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for ((out, values), amount) in out.iter_mut().zip(inputs.rgb(IMAGE)).zip(self.amounts) {
             for (out, value) in out.iter_mut().zip(values) {
                 *out = value + amount;

@@ -90,7 +90,7 @@ impl GatherBlock for Dither {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         match self.method {
             Method::Threshold => {
                 self.write::<L>(cx, out, |_| 0.0, |value| self.threshold.choice(value));
@@ -129,7 +129,7 @@ impl Dither {
     #[inline(always)]
     fn write<L: Levels>(
         &self,
-        cx: &RowContext,
+        cx: &RowContext<'_>,
         out: &mut OutputRow<'_>,
         grain: impl Fn(usize) -> f32,
         choice: impl Fn(f32) -> Choice,

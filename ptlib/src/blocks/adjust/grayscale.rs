@@ -30,7 +30,7 @@ impl PointBlock for Grayscale {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let [red, green, blue] = inputs.rgb(IMAGE);
         for (((out, red), green), blue) in out.grey().iter_mut().zip(red).zip(green).zip(blue) {
             *out = levels::luma::<L>([*red, *green, *blue]);

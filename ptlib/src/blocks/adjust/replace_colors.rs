@@ -73,7 +73,7 @@ impl PointBlock for ReplaceColors {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, _: &RowContext, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let [red, green, blue] = inputs.rgb(IMAGE);
         for (channel, out) in out.iter_mut().enumerate() {
             let kept = inputs.channel(IMAGE, channel);

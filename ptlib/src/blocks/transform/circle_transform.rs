@@ -31,8 +31,8 @@ pub static BLOCK: BlockSpec = BlockSpec::gather::<CircleTransform>(About {
     summary: "Takes each pixel from a circle around it, at the angle that its grey level says.",
     inputs: &[input("image", Kind::Image).anywhere()],
     outputs: &[output("image", Planes::As(IMAGE))],
-    tiling: Tiling::Except(
-        "in 8-bit precision several jumps leave a seam at the left and the upper edge",
+    tiling: Tiling::ExceptInEightBit(
+        "several jumps leave a seam at the left and the upper edge",
     ),
     ..About::DEFAULT
 });

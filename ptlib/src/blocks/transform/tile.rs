@@ -24,8 +24,8 @@ pub static BLOCK: BlockSpec = BlockSpec::gather::<Tile>(About {
     summary: "Repeats a picture, each copy reduced accordingly.",
     inputs: &[input("image", Kind::Image).anywhere()],
     outputs: &[output("image", Planes::As(IMAGE))],
-    tiling: Tiling::Except(
-        "in 8-bit precision the last copy is cut where the number of copies does not divide the \
+    tiling: Tiling::ExceptInEightBit(
+        "the last copy is cut where the number of copies does not divide the \
          width or the height",
     ),
     ..About::DEFAULT
