@@ -27,6 +27,7 @@ pub use interpolation::Interpolation;
 pub(crate) use registry::nearest;
 pub use registry::{Family, Registry};
 pub use row::{InputRows, OutputRow, PortRow};
+pub(crate) use row::{MAX_INPUTS, MAX_OUTPUT_PLANES};
 pub use shapes::{GatherBlock, PointBlock, RowKernel, WholeBlock};
 pub(crate) use shapes::{Implementation, RowFactory, WholeFactory};
 pub use spec::{

@@ -2,8 +2,11 @@
 
 use std::sync::{Arc, PoisonError, RwLock};
 
-use super::BlockSpec;
-use crate::error::{Error, ErrorKind};
+use super::{About, BlockSpec, MAX_INPUTS, MAX_OUTPUT_PLANES, Shape};
+use crate::{
+    error::{Error, ErrorKind},
+    value::Kind,
+};
 
 /// Block types that belong together, such as all noises. Made by [`family!`](crate::family!).
 #[derive(Debug, Clone, Copy)]
@@ -51,10 +54,12 @@ impl Registry {
     /// Adds block types.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidArgument`] if an id is taken; then none is added.
+    /// [`ErrorKind::InvalidArgument`] if an id is taken, or a block type has more inputs or outputs
+    /// than the engine can serve; then none is added.
     pub fn add(&self, family: &Family) -> Result<(), Error> {
         let mut entries = self.entries.write().unwrap_or_else(PoisonError::into_inner);
         for spec in family.blocks {
+            check_ports(spec)?;
             let id = spec.about.id;
             if entries.iter().any(|entry| entry.spec.about.id == id) {
                 let message = format!("there is a block type \"{id}\" already");
@@ -102,6 +107,24 @@ impl Registry {
     }
 }
 
+/// Whether the engine has room for the inputs and outputs of a block type.
+fn check_ports(spec: &BlockSpec) -> Result<(), Error> {
+    let About { id, inputs, outputs, .. } = spec.about;
+    let images = outputs.iter().filter(|output| output.kind == Kind::Image);
+    let planes: usize = images.map(|output| output.planes.at_most()).sum();
+    let too_many = |count: usize, what: &str, allowed: usize| {
+        let message = format!("block type \"{id}\" has {count} {what}, allowed {allowed}");
+        Err(Error::new(ErrorKind::InvalidArgument, message))
+    };
+    if inputs.len() > MAX_INPUTS {
+        too_many(inputs.len(), "inputs", MAX_INPUTS)
+    } else if spec.shape() != Shape::Whole && planes > MAX_OUTPUT_PLANES {
+        too_many(planes, "planes of outputs", MAX_OUTPUT_PLANES)
+    } else {
+        Ok(())
+    }
+}
+
 /// The candidate that `word` is most likely a misspelling of, if it is near enough to be one.
 pub(crate) fn nearest<'a>(
     word: &str,
@@ -135,7 +158,27 @@ fn edit_distance(a: &str, b: &str) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{
+        super::{InputPort, OutputPort, Planes, input, output, prelude::*},
+        *,
+    };
+
+    params! {
+        /// None.
+        NoParams {}
+    }
+
+    struct Nothing;
+
+    impl PointBlock for Nothing {
+        type Params = NoParams;
+
+        fn prepare<L: Levels>(_: &NoParams, _: &PrepareContext<'_>) -> Result<Self, Error> {
+            Ok(Self)
+        }
+
+        fn row<L: Levels>(&self, _: &RowContext<'_>, _: &InputRows<'_>, _: &mut OutputRow<'_>) {}
+    }
 
     #[test]
     fn a_misspelt_id_gets_a_hint() {
@@ -143,5 +186,25 @@ mod tests {
         assert_eq!(nearest("perlin nose", ids.into_iter()), Some("perlin noise"));
         assert_eq!(nearest("teapot", ids.into_iter()), None);
         assert_eq!(edit_distance("kitten", "sitting"), 3);
+    }
+    #[test]
+    fn block_types_with_too_many_ports_are_refused() {
+        const IMAGE: OutputPort = output("image", Planes::As(0));
+        const fn block(inputs: &'static [InputPort], outputs: &'static [OutputPort]) -> BlockSpec {
+            BlockSpec::point::<Nothing>(About { id: "nothing", inputs, outputs, ..About::DEFAULT })
+        }
+        static FAMILIES: [(Family, &str); 4] = [
+            (Family { name: "a", blocks: &[&block(&[], &[IMAGE; 3])] }, "12 planes"),
+            (Family { name: "b", blocks: &[&block(&[PORT; 17], &[IMAGE])] }, "17 inputs"),
+            (Family { name: "c", blocks: &[&block(&[PORT; 16], &[IMAGE; 2])] }, ""),
+            (Family { name: "d", blocks: &[&block(&[], &[IMAGE])] }, "already"),
+        ];
+        const PORT: InputPort = input("image", Kind::Image);
+        let registry = Registry::default();
+        for (family, said) in &FAMILIES {
+            let message =
+                registry.add(family).map_or_else(|error| error.to_string(), |()| "".into());
+            assert!(message.contains(said) && message.is_empty() == said.is_empty(), "{message}");
+        }
     }
 }

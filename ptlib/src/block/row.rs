@@ -3,6 +3,12 @@
 use super::store::Store;
 use crate::{math::simd::SimdLevel, value::MAX_PLANES};
 
+/// The most inputs of a block.
+pub(crate) const MAX_INPUTS: usize = 16;
+
+/// The most planes of all outputs of a block that writes rows.
+pub(crate) const MAX_OUTPUT_PLANES: usize = 8;
+
 /// A part of a row of one input image: one slice a plane, none if the input is not connected.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PortRow<'a> {
@@ -71,12 +77,12 @@ impl<'a> InputRows<'a> {
 /// The part of a row to write: one slice a plane, all outputs one after the other.
 #[derive(Debug)]
 pub struct OutputRow<'a> {
-    planes: [&'a mut [f32]; MAX_PLANES],
+    planes: [&'a mut [f32]; MAX_OUTPUT_PLANES],
     count: usize,
     /// How each plane is stored.
     stores: &'a [Store],
     /// Which planes are stored already.
-    is_stored: [bool; MAX_PLANES],
+    is_stored: [bool; MAX_OUTPUT_PLANES],
     /// How many values of those were not finite.
     strange: u32,
 }
@@ -92,7 +98,7 @@ impl<'a> OutputRow<'a> {
             planes: Default::default(),
             count: 0,
             stores,
-            is_stored: [false; MAX_PLANES],
+            is_stored: [false; MAX_OUTPUT_PLANES],
             strange: 0,
         };
         for plane in planes {
@@ -125,15 +131,15 @@ impl<'a> OutputRow<'a> {
     /// The three planes of a colour output.
     #[inline]
     pub fn rgb(&mut self) -> [&mut [f32]; 3] {
-        self.is_stored = [false; MAX_PLANES];
-        let [red, green, blue, _] = &mut self.planes;
+        self.is_stored = [false; MAX_OUTPUT_PLANES];
+        let [red, green, blue, ..] = &mut self.planes;
         [red, green, blue]
     }
 
     /// All planes, in order.
     #[inline]
     pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut [f32]> {
-        self.is_stored = [false; MAX_PLANES];
+        self.is_stored = [false; MAX_OUTPUT_PLANES];
         self.planes[..self.count].iter_mut().map(|plane| &mut **plane)
     }
 

@@ -6,7 +6,7 @@ use super::{GatherBlock, Implementation, PointBlock, WholeBlock, shapes};
 use crate::{
     math::levels::Precision,
     params::{ParamSet, ParamSpec},
-    value::Kind,
+    value::{Kind, MAX_PLANES},
 };
 
 /// How a block reads an input image.
@@ -44,6 +44,18 @@ pub enum Planes {
     Most(&'static [usize]),
     /// As the block says for its parameters ([`PointBlock::is_grey`] and its kin): one or three.
     ByParameters,
+}
+
+impl Planes {
+    /// The most planes that such an output may have.
+    #[must_use]
+    pub fn at_most(self) -> usize {
+        match self {
+            Self::Grey => 1,
+            Self::Colour | Self::ByParameters => 3,
+            Self::As(_) | Self::Most(_) => MAX_PLANES,
+        }
+    }
 }
 
 /// An output of a block.

@@ -16,7 +16,7 @@ use super::{
     sink::{Sink, SinkStrip},
 };
 use crate::{
-    block::{InputRows, OutputRow, PortRow, Progress, RowContext, RowKernel, Store},
+    block::{InputRows, MAX_INPUTS, OutputRow, PortRow, Progress, RowContext, RowKernel, Store},
     error::Error,
     math::simd::SimdLevel,
     value::{Image, Plane, Value},
@@ -237,7 +237,7 @@ impl StageRows<'_> {
         if member.sources.len() <= FEW_PORTS {
             self.write::<FEW_PORTS>(member, segment, buffers, &mut out);
         } else {
-            self.write::<MAX_PORTS>(member, segment, buffers, &mut out);
+            self.write::<MAX_INPUTS>(member, segment, buffers, &mut out);
         }
         let strange = out.finish(simd);
         buffers.sets[set] = own;
@@ -294,9 +294,6 @@ impl StageRows<'_> {
         }
     }
 }
-
-/// The most inputs of a block.
-pub(super) const MAX_PORTS: usize = 16;
 
 /// As many inputs as the blocks have that run often.
 const FEW_PORTS: usize = 3;
