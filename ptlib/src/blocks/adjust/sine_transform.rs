@@ -59,8 +59,10 @@ impl PointBlock for SineTransform {
     #[inline(always)]
     fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let [red, green, blue] = inputs.rgb(IMAGE);
+        let is_grey = inputs.planes(IMAGE) == 1;
         for (((out, red), green), blue) in out.grey().iter_mut().zip(red).zip(green).zip(blue) {
-            let grey = if inputs.planes(IMAGE) == 1 { *red } else { (red + green + blue) / 3.0 };
+            let mean = (red + green + blue) / 3.0;
+            let grey = if is_grey { *red } else { mean };
             *out = if L::EIGHT_BIT {
                 // Levels are whole but for rounding, their means are a third apart.
                 self.by_level[convert::truncate_masked(grey * 255.0 + 0.01, 255)]

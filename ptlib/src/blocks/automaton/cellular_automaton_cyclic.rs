@@ -3,8 +3,13 @@
 //! Specification 2.22. Where enough neighbours of a cell have the state after its own, the cell
 //! takes that state. All cells change at once.
 //!
-//! Neighbours are counted by looking at each of them, 64 cells at a time: a comparison and an
-//! addition of a vector of bytes for each neighbour.
+//! Neighbours are counted by looking at each of them, many cells at a time: one comparison and one
+//! addition of a vector of bytes. With AVX2 that costs 0.013 ns a neighbour and cell: 0.2 ns for
+//! the usual twelve, 6 ns for the 440 of the largest square.
+//!
+//! Rejected: counts of each state that slide along rows and columns. They have to be made for
+//! every state that occurs. Made for 64 cells at once, they took 0.4 to 0.75 ns a state and cell in
+//! squares (twice that in diamonds), which pays in large squares with few states only.
 
 use super::cells::{
     Grid, MAX_SIZE, Neighbourhood, Rule, SIDE, evolve, picture, states_of, value_of_state,
@@ -81,24 +86,33 @@ impl Rule for Cycle {
     fn side(&self, grid: &Grid, x: usize, y: usize) -> [u8; SIDE] {
         let place = grid.place(x, y);
         let mut cells = *grid.side(place, 0);
-        let after = cells.map(|state| if state < self.last { state + 1 } else { 0 });
-        let count = |offsets: &[isize]| {
-            let mut count = [0_u8; SIDE];
-            for offset in offsets {
-                let neighbours = grid.side(place, *offset);
-                for i in 0..SIDE {
-                    count[i] = count[i].wrapping_add(u8::from(neighbours[i] == after[i]));
-                }
-            }
-            count
-        };
-        let [above, below] = self.halves.each_ref().map(|half| count(half));
+        let mut after = cells;
+        for state in &mut after {
+            *state = if *state < self.last { *state + 1 } else { 0 };
+        }
+        let above = count(grid, place, &self.halves[0], &after);
+        let below = count(grid, place, &self.halves[1], &after);
         for i in 0..SIDE {
             let count = u16::from(above[i]) + u16::from(below[i]);
-            cells[i] = if count >= self.threshold { after[i] } else { cells[i] };
+            // All bits or none: nobody can foretell a branch here.
+            let is_eaten = u8::from(count >= self.threshold).wrapping_neg();
+            cells[i] = (after[i] & is_eaten) | (cells[i] & !is_eaten);
         }
         cells
     }
+}
+
+/// How many of the neighbours at `offsets` have the states `wanted`.
+#[inline(always)]
+fn count(grid: &Grid, place: usize, offsets: &[isize], wanted: &[u8; SIDE]) -> [u8; SIDE] {
+    let mut counts = [0_u8; SIDE];
+    for offset in offsets {
+        let neighbours = grid.side(place, *offset);
+        for ((count, neighbour), wanted) in counts.iter_mut().zip(neighbours).zip(wanted) {
+            *count = count.wrapping_add(u8::from(neighbour == wanted));
+        }
+    }
+    counts
 }
 
 #[cfg(test)]

@@ -85,7 +85,10 @@ impl Rule for Life {
                 *set |= u8::from(*neighbour == 0) << bit;
             }
         }
-        let rules = sets.map(|set| self.rules[usize::from(set)]);
+        let mut rules = sets;
+        for rule in &mut rules {
+            *rule = self.rules[usize::from(*rule)];
+        }
         let mut cells = *grid.side(place, 0);
         for (cell, rule) in cells.iter_mut().zip(rules) {
             // Dead cells go on ageing (Q).

@@ -122,7 +122,8 @@ fn wrap_columns(row: &mut [u8], width: usize, margin: usize) {
 
 /// A rule that says what becomes of cells: compiled for each SIMD level.
 pub(in super::super) trait Rule: Sync {
-    /// The next state of [`SIDE`] cells of row `y`, from column `x` on. Mark it `#[inline(always)]`.
+    /// What [`SIDE`] cells of row `y` become, from column `x` on. Mark it `#[inline(always)]`, and
+    /// what it calls: the rest is compiled for the lowest level.
     fn side(&self, grid: &Grid, x: usize, y: usize) -> [u8; SIDE];
 }
 

@@ -3,7 +3,7 @@
 //! Specification 2.0, STATES and UNSTATES. A cell is one byte. A picture of them is a [`Grid`]
 //! with a margin that repeats the opposite side, so that a neighbour is found by adding to a
 //! place and no rule knows about edges. A generation goes from one grid to another, row by row on
-//! all threads; a rule writes [`BLOCK`](SIDE) cells at a time, which the compiler makes vectors of.
+//! all threads; a rule writes [`SIDE`] cells at a time, which the compiler makes vectors of.
 
 mod grid;
 mod neighbours;
