@@ -145,8 +145,8 @@ impl Layout {
     pub(in crate::blocks::noise) fn custom(&self, mut list: &str) -> Places {
         let mut places = Vec::new();
         while places.len() < MAX_CUSTOM {
-            let Some((x, rest)) = decimal(list) else { break };
-            let Some((y, rest)) = decimal(after_separator(rest)) else { break };
+            let Some((x, rest)) = decimal::prefix(list) else { break };
+            let Some((y, rest)) = decimal::prefix(after_separator(rest)) else { break };
             list = after_separator(rest);
             let x = convert::truncate64(x * f64::from(self.width - 1));
             let y = convert::truncate64(y * f64::from(self.height - 1));
@@ -161,24 +161,6 @@ fn after_separator(text: &str) -> &str {
     let mut rest = text.trim_start().chars();
     rest.next();
     rest.as_str()
-}
-
-/// The decimal number that `text` begins with, after blanks, and what follows it.
-fn decimal(text: &str) -> Option<(f64, &str)> {
-    let text = text.trim_start();
-    let digits = |from: usize| from + text[from..].bytes().take_while(u8::is_ascii_digit).count();
-    let sign = usize::from(text.starts_with(['+', '-']));
-    let mut end = digits(sign);
-    if text[end..].starts_with('.') {
-        end = digits(end + 1);
-    }
-    if let Some(rest) = text[end..].strip_prefix(['e', 'E']) {
-        let start = end + 1 + usize::from(rest.starts_with(['+', '-']));
-        if digits(start) > start {
-            end = digits(start);
-        }
-    }
-    Some((text[..end].parse().ok()?, &text[end..]))
 }
 
 #[cfg(test)]
