@@ -16,6 +16,7 @@ mod registry;
 mod row;
 mod shapes;
 mod spec;
+mod sums;
 #[cfg(test)]
 pub(crate) mod testing;
 
