@@ -20,7 +20,6 @@ const PENDING: &[&str] = &[
     "cellular automaton cyclic",
     "cellular automaton general",
     "cellular automaton rps",
-    "convolution",
     "dither",
     "edge detection",
     "emboss",
