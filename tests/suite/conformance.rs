@@ -21,7 +21,6 @@ const PENDING: &[&str] = &[
     "cellular automaton general",
     "cellular automaton rps",
     "dither",
-    "edge detection",
     "emboss",
     "fault formation noise",
     "geometric transform",
