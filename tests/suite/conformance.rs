@@ -21,7 +21,6 @@ const PENDING: &[&str] = &[
     "cellular automaton general",
     "cellular automaton rps",
     "dither",
-    "emboss",
     "fault formation noise",
     "geometric transform",
     "grayscale",
