@@ -30,7 +30,6 @@ const PENDING: &[&str] = &[
     "particles",
     "radius transform",
     "replace colors",
-    "sharpen",
     "sine transform",
     "square mosaic",
     "substrate",
