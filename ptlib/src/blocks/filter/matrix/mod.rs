@@ -153,13 +153,13 @@ fn is_exact_in_single(weights: &[f64]) -> bool {
 impl<T: Number> Taps<T> {
     fn new(width: usize, weights: &[f64]) -> Self {
         let middle = weights.len() / width / 2;
-        let rows: Vec<_> = weights.chunks(width).collect();
         let is_empty = |row: &[f64]| row.iter().all(|weight| *weight == 0.0);
-        let used: Vec<_> = (0..rows.len()).filter(|j| !is_empty(rows[*j])).collect();
+        let rows = weights.chunks(width).enumerate();
+        let used: Vec<_> = rows.filter(|(_, row)| !is_empty(row)).map(|(j, _)| j).collect();
         let mut taps = Vec::new();
         for column in 0..width {
             for (row, j) in used.iter().enumerate() {
-                let weight = rows[*j][column];
+                let weight = weights[j * width + column];
                 if weight != 0.0 {
                     taps.push(Tap { row, column, weight: T::nearest(weight) });
                 }
@@ -241,7 +241,7 @@ fn add<T: Number, const COUNT: usize>(
 #[inline(always)]
 pub(super) fn copy_ring<S: Copy, T>(ring: &[S], first: i64, load: impl Fn(S) -> T, out: &mut [T]) {
     let mut rest = out;
-    let mut start = first.rem_euclid(ring.len() as i64).unsigned_abs() as usize;
+    let mut start = convert::index(first.rem_euclid(ring.len() as i64));
     while !rest.is_empty() {
         let count = rest.len().min(ring.len() - start);
         let (piece, behind) = rest.split_at_mut(count);
