@@ -15,16 +15,12 @@ use crate::picture::{Levels, folder};
 
 /// Block types of PT Designer that are not there yet. A case that needs one is pending.
 const PENDING: &[&str] = &[
-    "convolution",
-    "edge detection",
-    "emboss",
     "fault formation noise",
     "geometric transform",
     "l-system",
     "marble",
     "particles",
     "radius transform",
-    "sharpen",
     "square mosaic",
     "substrate",
     "turtle",

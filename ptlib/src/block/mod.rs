@@ -17,6 +17,7 @@ mod row;
 mod shapes;
 mod spec;
 mod store;
+mod sums;
 #[cfg(test)]
 pub(crate) mod testing;
 

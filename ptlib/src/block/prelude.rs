@@ -9,7 +9,7 @@ pub use super::{
 pub use crate::{
     choice,
     error::{Error, ErrorKind},
-    math::{convert, elementary, elias, levels, levels::Levels, ray, simd::Kernel},
+    math::{convert, decimal, elementary, elias, levels, levels::Levels, ray, simd::Kernel},
     params,
     value::{
         Axis, Gradient, GradientStop, Image, Kind, Plane, Resampling, Span, Value, box_sum,

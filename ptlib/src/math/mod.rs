@@ -7,6 +7,7 @@
 //! that are computed once). Nothing is ever fused or reordered.
 
 pub mod convert;
+pub mod decimal;
 pub mod elementary;
 pub mod elias;
 pub mod levels;

@@ -6,8 +6,9 @@
 //! starts, and every split of the work gives the same bits.
 //!
 //! Everything wraps around, for any size of window: one that is longer than the ring counts whole
-//! turns. [`SlidingSum`] sums along one row; [`LinePlan`] sums along all columns (or diagonals) of
-//! an image, in bands of columns that may be filled in any order.
+//! turns. [`SlidingSum`] sums along one row, a [`RunningSum`] may follow several; [`LinePlan`] sums
+//! along all columns (or diagonals) of an image, in bands of columns that may be filled in any
+//! order.
 //!
 //! Rejected: a summed-area table. It needs 64-bit numbers for every pixel, and a pass along the
 //! columns and one along the rows with nothing in between is as cheap and stays in the cache.
@@ -127,6 +128,12 @@ impl Window {
         self
     }
 
+    /// The sum over the window around place 0 of a ring. `load` makes an integer of a number.
+    #[must_use]
+    pub fn sum<T: Copy>(self, ring: &[T], load: impl Fn(T) -> i32) -> i64 {
+        self.on_ring(ring.len() as u64).sum(ring, &load)
+    }
+
     /// Where the window lies on a ring of `length` places, for place 0.
     fn on_ring(self, length: u64) -> RingWindow {
         let count = u64::from(self.count);
@@ -186,23 +193,75 @@ impl<const K: usize> SlidingSum<K> {
 
     /// Writes `store` of the sum at each place. `load` makes an integer of a number of the row.
     #[inline(always)]
-    pub fn along<T: Copy>(
+    pub fn along<T: Copy, O>(
         &self,
         row: &[T],
         load: impl Fn(T) -> i32,
-        out: &mut [f32],
-        store: impl Fn(i64) -> f32,
+        out: &mut [O],
+        store: impl Fn(i64) -> O,
     ) {
-        let load = |number| i64::from(load(number));
-        let mut sum = self.windows.iter().map(|window| window.sum(row, &load)).sum::<i64>();
-        let taps = [self.windows.map(|w| index(w.plus)), self.windows.map(|w| index(w.minus))];
-        for_runs(taps, row.len(), out.len(), |places, [plus, minus]| {
-            let plus = plus.map(|tap| &row[tap..][..places.len()]);
-            let minus = minus.map(|tap| &row[tap..][..places.len()]);
+        self.on(row, &load).along(load, out, |_, sum| store(sum));
+    }
+
+    /// The sum on a row, before it runs.
+    #[inline(always)]
+    #[must_use]
+    pub fn on<'a, T: Copy>(&self, row: &'a [T], load: impl Fn(T) -> i32) -> RunningSum<'a, T, K> {
+        RunningSum {
+            sum: self.windows.iter().map(|window| window.sum(row, &load)).sum(),
+            gained: self.windows.map(|window| Tap::at(row, window.plus)),
+            lost: self.windows.map(|window| Tap::at(row, window.minus)),
+        }
+    }
+}
+
+/// A place of a ring of numbers.
+#[derive(Debug, Clone, Copy)]
+pub struct Tap<'a, T> {
+    ring: &'a [T],
+    place: usize,
+}
+
+impl<'a, T> Tap<'a, T> {
+    /// Place `place`, which may be some turns on or back.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(ring: &'a [T], place: i64) -> Self {
+        Self::at(ring, place.rem_euclid(ring.len() as i64).cast_unsigned())
+    }
+
+    #[inline(always)]
+    fn at(ring: &'a [T], place: u64) -> Self {
+        Self { ring, place: index(place) }
+    }
+}
+
+/// A sum that moves along rings of one length, together with its taps.
+#[derive(Debug, Clone, Copy)]
+pub struct RunningSum<'a, T, const K: usize> {
+    /// The sum at place 0.
+    pub sum: i64,
+    /// Where, for place 0, the numbers lie that the next sum has and this one has not.
+    pub gained: [Tap<'a, T>; K],
+    /// Where those lie that this one has and the next one has not.
+    pub lost: [Tap<'a, T>; K],
+}
+
+impl<T: Copy, const K: usize> RunningSum<'_, T, K> {
+    /// Writes `store` of each place and the sum there. `load` makes an integer of a number.
+    #[inline(always)]
+    pub fn along<O>(self, load: impl Fn(T) -> i32, out: &mut [O], store: impl Fn(usize, i64) -> O) {
+        let Self { mut sum, gained, lost } = self;
+        let length = gained.first().map_or(out.len(), |tap| tap.ring.len());
+        let taps = [gained.map(|tap| tap.place), lost.map(|tap| tap.place)];
+        for_runs(taps, length, out.len(), |places, taps| {
+            let (start, count) = (places.start, places.len());
+            let gained: [_; K] = std::array::from_fn(|k| &gained[k].ring[taps[0][k]..][..count]);
+            let lost: [_; K] = std::array::from_fn(|k| &lost[k].ring[taps[1][k]..][..count]);
             for (i, out) in out[places].iter_mut().enumerate() {
-                *out = store(sum);
+                *out = store(start + i, sum);
                 for k in 0..K {
-                    sum += load(plus[k][i]) - load(minus[k][i]);
+                    sum += i64::from(load(gained[k][i])) - i64::from(load(lost[k][i]));
                 }
             }
         });
@@ -211,7 +270,8 @@ impl<const K: usize> SlidingSum<K> {
 
 impl RingWindow {
     /// The sum at place 0.
-    fn sum<T: Copy>(&self, row: &[T], load: &impl Fn(T) -> i64) -> i64 {
+    fn sum<T: Copy>(&self, row: &[T], load: &impl Fn(T) -> i32) -> i64 {
+        let load = |number| i64::from(load(number));
         let ring = row.iter().chain(row).skip(index(self.start)).take(index(self.rest));
         let mut sum: i64 = ring.map(|number| load(*number)).sum();
         if self.turns > 0 {
@@ -254,6 +314,12 @@ impl LineSums {
     #[must_use]
     pub fn new(image: Image) -> Self {
         Self { sums: image, slope: 0 }
+    }
+
+    /// The planes to write, for sums that lie upright and that no [`LinePlan`] makes.
+    pub fn planes_mut(&mut self) -> impl Iterator<Item = &mut [i32]> {
+        self.slope = 0;
+        self.sums.planes_mut().map(bytemuck::cast_slice_mut)
     }
 
     /// Row `y` of the sums of channel `channel`, and the place in it that belongs to column 0: the

@@ -76,10 +76,7 @@ impl GatherBlock for Blur {
             (true, Direction::RisingDiagonal) => -1,
         };
         let plan = LinePlan::new((image.width(), image.height()), slope, [window], fixed);
-        let mut sums = LineSums::new(cx.new_image(image.planes())?);
-        cx.parallel_pieces(&mut plan.bands(image, &mut sums), 1, |_, bands| {
-            bands.iter_mut().try_for_each(|band| band.fill(cx.simd, || cx.check()))
-        })?;
+        let sums = cx.line_sums(&plan, image)?;
         if params.motion {
             return Ok(Self::ReadLineSums { sums, mean });
         }

@@ -1,3 +1,5 @@
 //! Blocks that make a pixel from its neighbourhood.
 
-crate::family!("filter": blur);
+crate::family!("filter": blur, convolution, edge_detection, emboss, sharpen);
+
+mod matrix;

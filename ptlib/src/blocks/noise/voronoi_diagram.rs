@@ -2,6 +2,11 @@
 //!
 //! Specification 2.1. Distances wrap around, so the diagram tiles wherever its points lie. Where
 //! they lie is [`placement`]'s business; [`Cells`] finds the few that matter for a pixel.
+//!
+//! PT Designer takes the shorter way around also to points that lie more than a turn from a pixel,
+//! as those of large figures do. It is negative then, and what it gives outside of 0..255 is taken
+//! modulo 256; the texture `big x` is made of that. In 8-bit precision it is kept; in float
+//! precision, points are wrapped first.
 
 use super::voronoi::{
     Cells, Chebyshev, Euclidean, Measure, Point, Taxicab,
@@ -87,6 +92,10 @@ pub static BLOCK: BlockSpec = BlockSpec::point::<Voronoi>(About {
     inputs: &[input("l-system", Kind::Text).optional()],
     outputs: &[output("image", Planes::Grey)],
     uses_seed: true,
+    tiling: Tiling::Except(
+        "in 8-bit precision figures that reach far beyond the image leave seams, unless distances \
+         are taken in a straight line",
+    ),
     in_pixels: "what the shades of cells are made from, in 8-bit precision",
     ..About::DEFAULT
 });
@@ -108,7 +117,7 @@ impl PointBlock for Voronoi {
             let message = "cannot take its points from an L-system in this version";
             return Err(Error::new(ErrorKind::Unsupported, message));
         }
-        let points: Vec<Point> = place(params, cx)?
+        let points: Vec<Point> = place(params, !L::EIGHT_BIT, cx)?
             .into_iter()
             .zip(0..)
             .map(|((x, y), i)| {
@@ -116,8 +125,9 @@ impl PointBlock for Voronoi {
                 // in the list does not. Far from the numbers that the places are drawn from: a
                 // shade must not tell where its point lies.
                 let number = i32::wrapping_mul(i, 100_003).wrapping_add(50_021);
-                let index = if L::EIGHT_BIT { convert::low_bits(u64::from(x + y)) } else { number };
-                Point::new(x, y, elias::noise(index).abs())
+                let sum = convert::low_bits((x + y).cast_unsigned());
+                let index = if L::EIGHT_BIT { sum } else { number };
+                Point::new((x, y), elias::noise(index).abs())
             })
             .collect();
         let needed = if params.shows == Shows::Ratio { 2 } else { 1 };
@@ -141,9 +151,9 @@ impl PointBlock for Voronoi {
             return;
         };
         match self.metric {
-            Metric::Euclidean => self.write::<Euclidean>(cells, cx, out),
-            Metric::Taxicab => self.write::<Taxicab>(cells, cx, out),
-            Metric::Chebyshev => self.write::<Chebyshev>(cells, cx, out),
+            Metric::Euclidean => self.write::<L, Euclidean>(cells, cx, out),
+            Metric::Taxicab => self.write::<L, Taxicab>(cells, cx, out),
+            Metric::Chebyshev => self.write::<L, Chebyshev>(cells, cx, out),
         }
     }
 
@@ -157,11 +167,15 @@ impl PointBlock for Voronoi {
     }
 }
 
-fn place(params: &Params, cx: &PrepareContext<'_>) -> Result<Vec<(u32, u32)>, Error> {
+fn place(
+    params: &Params,
+    wraps: bool,
+    cx: &PrepareContext<'_>,
+) -> Result<Vec<(i64, i64)>, Error> {
     let count = i64::from(params.count);
     // In this order of operations, which decides on which pixel a length ends.
     let length = convert::truncate64(f64::from(params.width) * 0.01 * f64::from(cx.width));
-    let layout = Layout { width: cx.width, height: cx.height, length, count };
+    let layout = Layout { width: cx.width, height: cx.height, length, count, wraps };
     match params.place {
         Place::Random => layout.random(cx),
         Place::Square => Ok(layout.square()),
@@ -174,20 +188,32 @@ fn place(params: &Params, cx: &PrepareContext<'_>) -> Result<Vec<(u32, u32)>, Er
 
 impl Voronoi {
     #[inline(always)]
-    fn write<M: Measure>(&self, cells: &Cells, cx: &RowContext<'_>, out: &mut [f32]) {
+    fn write<L: Levels, M: Measure>(&self, cells: &Cells, cx: &RowContext<'_>, out: &mut [f32]) {
         match self.shows {
             Shows::Distance => cells.nearest::<M>(cx, out, |nearest, _| {
                 let value = M::distance(nearest) * self.unit;
-                if value < 1.0 { value } else { 1.0 }
+                let value = if value < 1.0 { value } else { 1.0 };
+                if L::EIGHT_BIT && value < 0.0 { modulo_256(value * 255.0) } else { value }
             }),
             Shows::Ratio => cells.nearest_two::<M>(cx, out, |nearest, second| {
+                let (nearest, second) = (M::distance(nearest), M::distance(second));
                 // Equal distances give 1 by themselves; two points here would give 0/0.
-                let ratio = M::distance(nearest) / M::distance(second);
-                if nearest > 0.0 { ratio } else { 0.0 }
+                let ratio = if nearest == 0.0 { 0.0 } else { nearest / second };
+                if L::EIGHT_BIT && !(0.0..=1.0).contains(&ratio) {
+                    modulo_256(255.0 * nearest / second)
+                } else {
+                    ratio
+                }
             }),
             Shows::Shade => cells.nearest::<M>(cx, out, |_, shade| shade),
         }
     }
+}
+
+/// The value of a level that has left 0..255.
+#[inline(always)]
+fn modulo_256(level: f32) -> f32 {
+    levels::from_level(convert::level(convert::truncate(level) & 255))
 }
 
 #[cfg(test)]
@@ -202,11 +228,14 @@ mod tests {
     /// The levels that the specification gives for these points, by looking at all of them.
     fn naive(
         (width, height): (u32, u32),
-        points: &[(u32, u32)],
+        points: &[(i64, i64)],
         metric: u32,
         shows: u32,
     ) -> Vec<f64> {
-        let around = |a: u32, b: u32, size: u32| f64::from(a.abs_diff(b).min(size - a.abs_diff(b)));
+        let around = |a: u32, b: i64, size: u32| {
+            let distance = (i64::from(a) - b).abs();
+            distance.min(i64::from(size) - distance) as f64
+        };
         let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         pixels
             .map(|(x, y)| {
@@ -219,7 +248,7 @@ mod tests {
                         _ => dx.max(dy),
                     };
                     if distance < first {
-                        let sum = convert::low_bits(u64::from(point.0 + point.1));
+                        let sum = convert::low_bits((point.0 + point.1).cast_unsigned());
                         (first, second, shade) = (distance, first, elias::noise64(sum).abs());
                     } else if distance < second {
                         second = distance;
@@ -228,16 +257,18 @@ mod tests {
                 let value = match shows {
                     0 => (5.0 * first / f64::from(u32::midpoint(width, height))).min(1.0),
                     1 if points.is_empty() => 1.0,
-                    1 if first < second => first / second,
-                    1 => f64::from(u8::from(first > 0.0)),
+                    1 if first == 0.0 => 0.0,
+                    1 => first / second,
                     _ => shade,
                 };
-                (value * 255.0 + 1e-3).trunc()
+                let is_level = (0.0..=1.0).contains(&value);
+                let level = value * 255.0 + if is_level { 1e-3 } else { 1e-9_f64.copysign(value) };
+                f64::from(convert::truncate(convert::single(level.trunc())) & 255)
             })
             .collect()
     }
 
-    fn places(layout: &Layout, place: u32) -> Vec<(u32, u32)> {
+    fn places(layout: &Layout, place: u32) -> Vec<(i64, i64)> {
         match place {
             1 => layout.square(),
             2 => layout.circle(),
@@ -255,8 +286,8 @@ mod tests {
             // Circles around a tile, arms through one, coinciding points, nothing at all.
             for (count, percent) in [(0, 75), (1, 75), (9, 30), (40, 0), (50, 45), (30, 300)] {
                 let length = convert::truncate64(f64::from(percent) * 0.01 * f64::from(size.0));
-                let layout =
-                    Layout { width: size.0, height: size.1, length, count: i64::from(count) };
+                let (width, height) = size;
+                let layout = Layout { width, height, length, count: count.into(), wraps: false };
                 let expected = naive(size, &places(&layout, place), metric, shows);
                 let trial = trial(size, metric, shows).choice("point place", place);
                 let trial = trial.int("number of points", count).int("width", percent);

@@ -1,23 +1,19 @@
 //! Points on a torus, and the ones that are nearest to a pixel.
 //!
 //! The image is cut into tiles. A tile knows the points that are nearest or second nearest to one
-//! of its pixels, so that a pixel looks at a handful of points, however many there are. Which
-//! these are follows from the triangle inequality: if the second nearest point of a tile's middle
-//! is at distance d, and no pixel of the tile is farther than h from the middle, then the two
-//! nearest points of every pixel are within d + 2h of the middle. Tiles are halved in both
-//! directions from the whole image down, and each looks only at the points of the one it came from.
+//! of its pixels, so that a pixel looks at a handful of points, however many there are.
+//! [`cutting`] finds out which these are.
 
+mod cutting;
 pub(super) mod placement;
 
-use std::{marker::PhantomData, ops::Range};
+use std::ops::Range;
 
+use self::cutting::{Candidates, Part, Square, Torus};
 use crate::block::prelude::*;
 
 /// Width and height of the smallest tile in pixels: one 256-bit register.
 const SIDE: usize = 8;
-
-/// A tile with at most this many points is not cut further.
-const FEW: usize = 3;
 
 /// A point in pixels.
 #[derive(Debug, Clone, Copy)]
@@ -29,8 +25,8 @@ pub(super) struct Point {
 }
 
 impl Point {
-    pub(super) fn new(x: u32, y: u32, shade: f32) -> Self {
-        Self { x: convert::pixels(x), y: convert::pixels(y), shade }
+    pub(super) fn new((x, y): (i64, i64), shade: f32) -> Self {
+        Self { x: convert::distance(x), y: convert::distance(y), shade }
     }
 }
 
@@ -40,6 +36,14 @@ pub(super) trait Measure {
     fn compare(across: f32, down: f32) -> f32;
     /// The distance, from what [`compare`](Self::compare) gave.
     fn distance(compared: f32) -> f32;
+
+    /// The least and the greatest distance along one direction that [`compare`](Self::compare) gets
+    /// to see between a point and pixels, of which the middle one is at `distance` and no other is
+    /// more than `half` from that. It is negative where a point lies more than a turn away.
+    #[inline(always)]
+    fn range(distance: f32, half: f32) -> [f32; 2] {
+        [distance - half, distance + half]
+    }
 }
 
 /// In a straight line.
@@ -54,6 +58,13 @@ impl Measure for Euclidean {
     #[inline(always)]
     fn distance(compared: f32) -> f32 {
         compared.sqrt()
+    }
+
+    #[inline(always)]
+    fn range(distance: f32, half: f32) -> [f32; 2] {
+        // Squares do not tell what was negative.
+        let distance = distance.abs();
+        [greater(distance - half, 0.0), distance + half]
     }
 }
 
@@ -104,138 +115,6 @@ pub(super) struct Cells {
     members: Vec<u32>,
 }
 
-/// A square of tiles that is being cut.
-#[derive(Debug, Clone, Copy)]
-struct Square {
-    /// The first tile.
-    x: usize,
-    y: usize,
-    /// Tiles along its side, a power of 2.
-    side: usize,
-}
-
-/// Points that may be among the nearest ones of the pixels of squares that are being cut, each
-/// square's behind those of the square that it came from.
-#[derive(Debug, Default)]
-struct Candidates {
-    numbers: Vec<u32>,
-    x: Vec<f32>,
-    y: Vec<f32>,
-    /// Memory for comparison numbers.
-    compared: Vec<f32>,
-}
-
-impl Candidates {
-    fn of(points: &[Point], numbers: Vec<u32>) -> Self {
-        let chosen = numbers.iter().map(|i| &points[*i as usize]);
-        let (x, y) = chosen.map(|point| (point.x, point.y)).unzip();
-        Self { compared: vec![0.0; numbers.len()], numbers, x, y }
-    }
-
-    fn resize(&mut self, len: usize) {
-        self.numbers.resize(len, 0);
-        self.x.resize(len, 0.0);
-        self.y.resize(len, 0.0);
-    }
-}
-
-/// Copies the candidates that are among the `needed` nearest points of a pixel of a square behind
-/// all others.
-struct Nearby<'a, M> {
-    candidates: &'a mut Candidates,
-    /// Those to pick from.
-    from: Range<usize>,
-    /// The square's middle.
-    middle: (f32, f32),
-    /// The image's size.
-    size: (f32, f32),
-    /// The greatest distance of a pixel of the square from its middle.
-    extent: f32,
-    needed: usize,
-    measure: PhantomData<M>,
-}
-
-impl<'a, M: Measure> Nearby<'a, M> {
-    fn new(
-        cells: &Cells,
-        square: Square,
-        candidates: &'a mut Candidates,
-        from: Range<usize>,
-        needed: usize,
-    ) -> Self {
-        // The square's middle and half its extent, without what lies beyond the image.
-        let span = |first: usize, size: f32| {
-            let first = convert::position(first * SIDE);
-            let last = lesser(first + convert::position(square.side * SIDE), size) - 1.0;
-            ((first + last) * 0.5, (last - first) * 0.5)
-        };
-        let (x, half_width) = span(square.x, cells.width);
-        let (y, half_height) = span(square.y, cells.height);
-        Self {
-            candidates,
-            from,
-            middle: (x, y),
-            size: (cells.width, cells.height),
-            extent: M::distance(M::compare(half_width, half_height)),
-            needed,
-            measure: PhantomData,
-        }
-    }
-}
-
-impl<M: Measure> Kernel for Nearby<'_, M> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let all = self.candidates;
-        let compared = &mut all.compared[..self.from.len()];
-        let places = all.x[self.from.clone()].iter().zip(&all.y[self.from.clone()]);
-        for (compared, (x, y)) in compared.iter_mut().zip(places) {
-            let across = around((self.middle.0 - x).abs(), self.size.0);
-            *compared = M::compare(across, around((self.middle.1 - y).abs(), self.size.1));
-        }
-        let [nearest, second] = least_two(compared);
-        let needed = M::distance(if self.needed == 1 { nearest } else { second });
-        // A little farther, because distances are rounded to 24 bits.
-        let reach = (needed + 2.0 * self.extent) * (1.0 + 1e-5) + 1e-3;
-        let reach = M::compare(reach, 0.0);
-        let start = all.numbers.len();
-        all.resize(start + self.from.len());
-        let (numbers, near_numbers) = all.numbers.split_at_mut(start);
-        let (x, near_x) = all.x.split_at_mut(start);
-        let (y, near_y) = all.y.split_at_mut(start);
-        let mut count = 0;
-        for (from, compared) in self.from.zip(&all.compared) {
-            // Copied in any case, which is faster than to guess which ones are near.
-            near_numbers[count] = numbers[from];
-            near_x[count] = x[from];
-            near_y[count] = y[from];
-            count += usize::from(*compared <= reach);
-        }
-        all.resize(start + count);
-    }
-}
-
-/// The least two of some numbers; infinity where there are fewer.
-#[inline(always)]
-fn least_two(numbers: &[f32]) -> [f32; 2] {
-    let (chunks, rest) = numbers.as_chunks::<SIDE>();
-    let (mut least, mut second) = ([f32::INFINITY; SIDE], [f32::INFINITY; SIDE]);
-    for chunk in chunks {
-        for lane in 0..SIDE {
-            second[lane] = lesser(second[lane], greater(least[lane], chunk[lane]));
-            least[lane] = lesser(least[lane], chunk[lane]);
-        }
-    }
-    let mut both = [f32::INFINITY; 2];
-    for number in least.iter().chain(&second).chain(rest) {
-        both[1] = lesser(both[1], greater(both[0], *number));
-        both[0] = lesser(both[0], *number);
-    }
-    both
-}
-
 impl Cells {
     /// The most members of all lists together. Only strange placements come near it, such as a
     /// circle around the tile: then tiles share the list of the tile that they came from.
@@ -250,9 +129,10 @@ impl Cells {
     /// The most memory of the cells of `points` points, in bytes.
     pub(super) fn bytes_of(points: u64, width: u32, height: u32) -> u64 {
         let tiles = Self::tiles_of(width, height);
-        // While they are built, lists of one tile of each size exist besides the finished ones.
-        let members = Self::most_members(points, tiles) + 32 * points;
-        points * size_of::<Point>() as u64 + (members + 2 * tiles) * size_of::<u32>() as u64
+        // While they are built, the lists of parts exist besides the finished ones, and on each
+        // thread those of one square of each size.
+        let members = 2 * Self::most_members(points, tiles) + cutting::PARTS * 8 * points;
+        points * size_of::<Point>() as u64 + (members + 8 * tiles) * size_of::<u32>() as u64
     }
 
     /// The cells of at least one point, prepared to find the `needed` (1 or 2) nearest ones.
@@ -263,7 +143,14 @@ impl Cells {
     ) -> Result<Self, Error> {
         let across = (cx.width as usize).div_ceil(SIDE);
         let down = (cx.height as usize).div_ceil(SIDE);
-        let mut all = Candidates::of(&points, distinct(&points, needed));
+        let distinct = distinct(&points, needed);
+        let candidates = Candidates::of(&points, &distinct);
+        let most = Self::most_members(points.len() as u64, (across * down) as u64);
+        let torus = Torus { size: [convert::pixels(cx.width), convert::pixels(cx.height)], needed };
+        let mut parts = Part::all(across, down, convert::index(most.cast_signed()));
+        cx.parallel_pieces(&mut parts, 1, |_, part| {
+            part.iter_mut().try_for_each(|part| part.cut::<M>(torus, &candidates, cx))
+        })?;
         let mut cells = Self {
             points,
             width: convert::pixels(cx.width),
@@ -271,46 +158,14 @@ impl Cells {
             across,
             tiles: vec![0; across * down],
             starts: vec![0],
-            members: Vec::new(),
+            members: Vec::with_capacity(parts.iter().map(|part| part.members.len()).sum()),
         };
-        let whole = Square { x: 0, y: 0, side: across.max(down).next_power_of_two() };
-        cells.cut::<M>(whole, &mut all, 0, needed, cx)?;
+        for part in parts {
+            for (square, members) in part.lists {
+                cells.keep(square, &part.members[members]);
+            }
+        }
         Ok(cells)
-    }
-
-    /// Cuts a square, whose pixels have their nearest points among the candidates from `first` on.
-    fn cut<M: Measure>(
-        &mut self,
-        square: Square,
-        candidates: &mut Candidates,
-        first: usize,
-        needed: usize,
-        cx: &Context<'_>,
-    ) -> Result<(), Error> {
-        let down = self.tiles.len() / self.across;
-        if square.x >= self.across || square.y >= down {
-            return Ok(());
-        }
-        let end = candidates.numbers.len();
-        let count = end - first;
-        let tiles = self.tiles.len() as u64;
-        let room = Self::most_members(self.points.len() as u64, tiles) - self.members.len() as u64;
-        // What is left must do for the lists of squares that are not cut yet, too.
-        let is_tight = count as u64 * 8 > room;
-        if square.side == 1 || count <= FEW || is_tight {
-            self.keep(square, &candidates.numbers[first..]);
-            return Ok(());
-        }
-        cx.check()?;
-        let side = square.side / 2;
-        for (x, y) in [(0, 0), (side, 0), (0, side), (side, side)] {
-            let quarter = Square { x: square.x + x, y: square.y + y, side };
-            let from = Nearby::<M>::new(self, quarter, candidates, first..end, needed);
-            cx.simd.run(from);
-            self.cut::<M>(quarter, candidates, end, needed, cx)?;
-            candidates.resize(end);
-        }
-        Ok(())
     }
 
     /// Makes `members` the list of the tiles of `square`.
@@ -427,15 +282,12 @@ const LANES: [f32; SIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 /// The numbers of points, without those that lie where `needed` earlier ones do: they change
 /// nothing, and no cutting would ever separate them.
 fn distinct(points: &[Point], needed: usize) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..).take(points.len()).collect();
-    let place = |i: u32| {
-        let point = &points[i as usize];
-        (point.y.to_bits(), point.x.to_bits())
-    };
-    order.sort_by_key(|i| (place(*i), *i));
+    let place = |point: &Point| (point.y.to_bits(), point.x.to_bits());
+    let mut order: Vec<_> = points.iter().map(place).zip(0_u32..).collect();
+    order.sort_unstable();
     let mut kept: Vec<u32> = order
-        .chunk_by(|a, b| place(*a) == place(*b))
-        .flat_map(|same| same.iter().copied().take(needed))
+        .chunk_by(|a, b| a.0 == b.0)
+        .flat_map(|same| same.iter().map(|(_, i)| *i).take(needed))
         .collect();
     kept.sort_unstable();
     kept

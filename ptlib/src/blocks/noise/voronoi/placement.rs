@@ -24,13 +24,20 @@ pub(in crate::blocks::noise) struct Layout {
     pub(in crate::blocks::noise) length: i64,
     /// The number of points that the user gave.
     pub(in crate::blocks::noise) count: i64,
+    /// Whether what lies beyond the image comes back on the other side.
+    pub(in crate::blocks::noise) wraps: bool,
 }
 
-type Places = Vec<(u32, u32)>;
+type Places = Vec<(i64, i64)>;
 
 impl Layout {
-    fn wrapped(&self, x: i64, y: i64) -> (u32, u32) {
-        (convert::wrap(x, self.width), convert::wrap(y, self.height))
+    fn wrapped(&self, x: i64, y: i64) -> (i64, i64) {
+        (convert::wrap(x, self.width).into(), convert::wrap(y, self.height).into())
+    }
+
+    /// The place of a point of a figure.
+    fn place(&self, x: i64, y: i64) -> (i64, i64) {
+        if self.wraps { self.wrapped(x, y) } else { (x, y) }
     }
 
     fn middle(&self) -> (i64, i64) {
@@ -84,7 +91,7 @@ impl Layout {
                 (left, bottom - along),
             ]
         });
-        corners.into_iter().chain(between).map(|(x, y)| self.wrapped(x, y)).collect()
+        corners.into_iter().chain(between).map(|(x, y)| self.place(x, y)).collect()
     }
 
     /// Along a circle around the middle, counter-clockwise from the right.
@@ -105,7 +112,7 @@ impl Layout {
                 2 => (-a, b),
                 _ => (b, a),
             };
-            self.wrapped(x + across, y + down)
+            self.place(x + across, y + down)
         };
         (0..count).map(place).collect()
     }
@@ -130,12 +137,11 @@ impl Layout {
 
     fn cross(&self, along: impl Fn(i64) -> i64, arms: [(i64, i64); 4]) -> Places {
         let (x, y) = self.middle();
-        let mut places = vec![self.wrapped(x, y)];
+        let mut places = vec![self.place(x, y)];
         for i in 1..self.count.max(2) {
             let along = along(i);
-            places.extend(
-                arms.map(|(right, down)| self.wrapped(x + right * along, y + down * along)),
-            );
+            places
+                .extend(arms.map(|(right, down)| self.place(x + right * along, y + down * along)));
         }
         places
     }
@@ -145,8 +151,8 @@ impl Layout {
     pub(in crate::blocks::noise) fn custom(&self, mut list: &str) -> Places {
         let mut places = Vec::new();
         while places.len() < MAX_CUSTOM {
-            let Some((x, rest)) = decimal(list) else { break };
-            let Some((y, rest)) = decimal(after_separator(rest)) else { break };
+            let Some((x, rest)) = decimal::prefix(list) else { break };
+            let Some((y, rest)) = decimal::prefix(after_separator(rest)) else { break };
             list = after_separator(rest);
             let x = convert::truncate64(x * f64::from(self.width - 1));
             let y = convert::truncate64(y * f64::from(self.height - 1));
@@ -163,29 +169,11 @@ fn after_separator(text: &str) -> &str {
     rest.as_str()
 }
 
-/// The decimal number that `text` begins with, after blanks, and what follows it.
-fn decimal(text: &str) -> Option<(f64, &str)> {
-    let text = text.trim_start();
-    let digits = |from: usize| from + text[from..].bytes().take_while(u8::is_ascii_digit).count();
-    let sign = usize::from(text.starts_with(['+', '-']));
-    let mut end = digits(sign);
-    if text[end..].starts_with('.') {
-        end = digits(end + 1);
-    }
-    if let Some(rest) = text[end..].strip_prefix(['e', 'E']) {
-        let start = end + 1 + usize::from(rest.starts_with(['+', '-']));
-        if digits(start) > start {
-            end = digits(start);
-        }
-    }
-    Some((text[..end].parse().ok()?, &text[end..]))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const LAYOUT: Layout = Layout { width: 100, height: 60, length: 20, count: 3 };
+    const LAYOUT: Layout = Layout { width: 100, height: 60, length: 20, count: 3, wraps: true };
 
     #[test]
     fn a_square_has_points_on_each_side() {
@@ -219,6 +207,8 @@ mod tests {
     fn points_beyond_the_edges_come_back_on_the_other_side() {
         let cross = Layout { length: 70, count: 2, ..LAYOUT }.horizontal_cross();
         assert_eq!(cross[1..], [(80, 30), (20, 30), (50, 40), (50, 20)]);
+        let cross = Layout { length: 70, count: 2, wraps: false, ..LAYOUT }.horizontal_cross();
+        assert_eq!(cross[1..], [(-20, 30), (120, 30), (50, 100), (50, -40)]);
     }
 
     #[test]

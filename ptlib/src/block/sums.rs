@@ -1,0 +1,83 @@
+//! Sums along the lines of whole images, made on all threads for blocks that prepare themselves.
+
+use super::Context;
+use crate::{
+    error::Error,
+    math::simd::Kernel,
+    value::{
+        Image,
+        box_sum::{FixedPoint, LinePlan, LineSums, SlidingSum},
+    },
+};
+
+/// Rows that are summed in one go.
+const ROWS: usize = 16;
+
+impl Context<'_> {
+    /// The sums of `plan` in each plane of `image`. Announce their memory, which is that of the
+    /// image.
+    ///
+    /// # Errors
+    /// [`NoMemory`](crate::ErrorKind::NoMemory) or [`Cancelled`](crate::ErrorKind::Cancelled).
+    pub fn line_sums<const K: usize>(
+        &self,
+        plan: &LinePlan<K>,
+        image: &Image,
+    ) -> Result<LineSums, Error> {
+        let mut sums = self.unwritten_sums(image)?;
+        self.parallel_pieces(&mut plan.bands(image, &mut sums), 1, |_, bands| {
+            bands.iter_mut().try_for_each(|band| band.fill(self.simd, || self.check()))
+        })?;
+        Ok(sums)
+    }
+
+    /// The sums of `sliding` in each row of each plane of `image`, which must fit 32 bits.
+    /// Announce their memory, which is that of the image.
+    ///
+    /// # Errors
+    /// As [`line_sums`](Self::line_sums).
+    pub fn row_sums<const K: usize>(
+        &self,
+        sliding: &SlidingSum<K>,
+        image: &Image,
+        fixed: FixedPoint,
+    ) -> Result<LineSums, Error> {
+        let width = image.width() as usize;
+        let mut sums = self.unwritten_sums(image)?;
+        for (channel, plane) in sums.planes_mut().enumerate() {
+            let source = image.channel(channel);
+            self.parallel_pieces(plane, width * ROWS, |piece, sums| {
+                let rows = &source[piece * width * ROWS..][..sums.len()];
+                let rows = rows.chunks_exact(width).zip(sums.chunks_exact_mut(width));
+                rows.into_iter().try_for_each(|(row, sums)| {
+                    self.check()?;
+                    self.simd.run(SumRow { sliding, row, fixed, sums });
+                    Ok(())
+                })
+            })?;
+        }
+        Ok(sums)
+    }
+
+    fn unwritten_sums(&self, image: &Image) -> Result<LineSums, Error> {
+        let (width, height) = (image.width(), image.height());
+        Ok(LineSums::new(self.new_image_sized(width, height, image.planes())?))
+    }
+}
+
+struct SumRow<'a, const K: usize> {
+    sliding: &'a SlidingSum<K>,
+    row: &'a [f32],
+    fixed: FixedPoint,
+    sums: &'a mut [i32],
+}
+
+impl<const K: usize> Kernel for SumRow<'_, K> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let store = |sum: i64| crate::math::convert::low_bits(sum.cast_unsigned());
+        self.sliding.along(self.row, |value| self.fixed.integer(value), self.sums, store);
+    }
+}
