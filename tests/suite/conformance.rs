@@ -28,7 +28,6 @@ const PENDING: &[&str] = &[
     "geometric transform",
     "grayscale",
     "l-system",
-    "marble",
     "mix channels",
     "particles",
     "radius transform",
@@ -124,6 +123,7 @@ fn compare_one(engine: &Engine, path: &Path, tolerance: &Tolerance) -> Result<Ve
     let expected = Levels::read(&path.with_extension("png"));
     let found = Levels::of(&image);
     let difference = found.difference(&expected, tolerance.step);
+    println!("{}: {:.4} {:.4} %", path.display(), difference.mean, difference.far * 100.0);
     if difference.mean <= tolerance.mean && difference.far <= tolerance.far {
         return Ok(Vec::new());
     }

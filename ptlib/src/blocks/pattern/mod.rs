@@ -1,0 +1,5 @@
+//! Blocks that draw a pattern: stone, wood, cracks, tiles.
+
+crate::family!("pattern": marble);
+
+mod grain;
