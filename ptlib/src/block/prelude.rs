@@ -11,5 +11,8 @@ pub use crate::{
     error::{Error, ErrorKind},
     math::{convert, elementary, elias, levels, levels::Levels, ray, simd::Kernel},
     params,
-    value::{Axis, Gradient, GradientStop, Image, Kind, Plane, Resampling, Span, Value, box_sum},
+    value::{
+        Axis, Gradient, GradientStop, Image, Kind, Plane, Resampling, Span, Value, box_sum,
+        byte_list,
+    },
 };

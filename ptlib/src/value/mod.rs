@@ -5,6 +5,7 @@
 //! assume that a wire is an image.
 
 pub mod box_sum;
+pub mod byte_list;
 mod gradient;
 mod image;
 mod kind;
