@@ -25,7 +25,6 @@ const PENDING: &[&str] = &[
     "edge detection",
     "emboss",
     "fault formation noise",
-    "geometric transform",
     "grayscale",
     "l-system",
     "mix channels",
