@@ -29,7 +29,6 @@ const PENDING: &[&str] = &[
     "l-system",
     "mix channels",
     "particles",
-    "radius transform",
     "replace colors",
     "sharpen",
     "sine transform",
