@@ -24,7 +24,6 @@ const PENDING: &[&str] = &[
     "dither",
     "edge detection",
     "emboss",
-    "fault formation noise",
     "grayscale",
     "l-system",
     "mix channels",
