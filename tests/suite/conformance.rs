@@ -34,7 +34,6 @@ const PENDING: &[&str] = &[
     "square mosaic",
     "substrate",
     "turtle",
-    "wood",
 ];
 
 /// How near a picture must be.

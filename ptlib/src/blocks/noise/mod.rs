@@ -2,5 +2,6 @@
 
 crate::family!("noise": bump_noise, fault_formation_noise, perlin_noise, simple_noise, voronoi_diagram);
 
+mod fault;
 pub(super) mod lattice;
 mod voronoi;

@@ -41,14 +41,16 @@ pub(super) fn noise() -> Settings {
     }
 }
 
-/// Replaces what lies so near a whole level that rounding in single precision decides how it is
-/// truncated: pixel `i` of `levels` by `exact(i)`. One in some hundred pixels of a picture does.
+/// Truncates levels from 0 up. Those that lie so near to a whole one that the error of their
+/// arithmetic, below `near`, would decide how they are truncated are computed again: level `i` by
+/// `exact(i)`.
 #[inline(always)]
-pub(super) fn settle(levels: &mut [f32], exact: impl Fn(usize) -> f64) {
-    /// More than the error of a level that a sine in single precision gives.
-    const NEAR: f32 = 1.0 / 512.0;
-    let is_near = |level: f32| (level - (level + 0.5).floor()).abs() < NEAR;
-    // Whether any is near is found for many pixels at once.
+pub(super) fn truncate(levels: &mut [f32], near: f32, exact: impl Fn(usize) -> f64) {
+    let is_near = |level: f32| {
+        let whole = (level + 0.5).floor();
+        whole >= 1.0 && (level - whole).abs() < near
+    };
+    // Whether any is near is found for many levels at once.
     if levels.iter().fold(false, |any, level| any | is_near(*level)) {
         for (i, level) in levels.iter_mut().enumerate() {
             if is_near(*level) {

@@ -52,6 +52,9 @@ pub static BLOCK: BlockSpec = BlockSpec::point::<Marble>(About {
 /// Pixels that are computed side by side.
 const PIECE: usize = 64;
 
+/// More than the error of a level.
+const NEAR: f32 = 1.0 / 512.0;
+
 struct Marble {
     /// What pushes the stripes, unless an input does.
     noise: Option<LatticeNoise>,
@@ -121,7 +124,7 @@ impl Marble {
             *level = 127.0 + self.amplitude * sine;
         }
         if L::EIGHT_BIT {
-            grain::settle(piece, |i| {
+            grain::truncate(piece, NEAR, |i| {
                 let turns = self.periods * (position(i) + noise[i] * self.push);
                 127.0 + f64::from(self.amplitude) * elementary::sin64(2.0 * PI * turns)
             });

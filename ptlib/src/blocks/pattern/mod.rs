@@ -1,5 +1,6 @@
 //! Blocks that draw a pattern: stone, wood, cracks, tiles.
 
-crate::family!("pattern": marble);
+crate::family!("pattern": marble, wood);
 
 mod grain;
+mod rings;
