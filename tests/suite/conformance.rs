@@ -32,7 +32,6 @@ const PENDING: &[&str] = &[
     "sharpen",
     "sine transform",
     "square mosaic",
-    "substrate",
     "turtle",
 ];
 
