@@ -84,6 +84,8 @@ pub struct Context<'a> {
     /// The SIMD level to run kernels at.
     pub simd: SimdLevel,
     pub(crate) inputs: &'a [Option<Value>],
+    /// For each input, whether it is there: as a value above, or as rows.
+    pub(crate) connected: &'a [bool],
     pub(crate) pool: &'a Arc<BufferPool>,
     pub(crate) files: &'a dyn Files,
     pub(crate) progress: &'a dyn Progress,
@@ -102,10 +104,10 @@ impl<'a> Context<'a> {
         crate::math::convert::low_bits(self.seed)
     }
 
-    /// Whether input `port` is connected.
+    /// Whether input `port` is connected, also one that only comes row by row.
     #[must_use]
     pub fn is_connected(&self, port: usize) -> bool {
-        self.inputs.get(port).is_some_and(Option::is_some)
+        self.connected.get(port).is_some_and(|is_connected| *is_connected)
     }
 
     /// The whole image at input `port`.

@@ -138,12 +138,14 @@ impl Trial {
     pub(crate) fn compute(&self) -> Result<Vec<Value>, Error> {
         let pool = BufferPool::new();
         let whole_inputs: Vec<_> = (0..self.inputs.len()).map(|port| self.whole(port)).collect();
+        let connected: Vec<_> = self.inputs.iter().map(Option::is_some).collect();
         let context = Context {
             width: self.width,
             height: self.height,
             seed: self.seed,
             simd: self.simd,
             inputs: &whole_inputs,
+            connected: &connected,
             pool: &pool,
             files: &NoFiles,
             progress: &Alone,

@@ -8,6 +8,7 @@ mod filter;
 mod light;
 mod mix;
 mod noise;
+mod pattern;
 mod results;
 #[cfg(feature = "test-blocks")]
 mod testing;
@@ -25,6 +26,7 @@ pub static FAMILIES: &[&Family] = &[
     &light::FAMILY,
     &mix::FAMILY,
     &noise::FAMILY,
+    &pattern::FAMILY,
     &results::FAMILY,
     #[cfg(feature = "test-blocks")]
     &testing::FAMILY,

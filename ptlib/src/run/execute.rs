@@ -18,7 +18,7 @@ use super::{
     sink::Sink,
 };
 use crate::{
-    block::{Context, Files, Progress, RowKernel, Store},
+    block::{Access, Context, Files, Progress, RowKernel, Store},
     error::{Error, ErrorKind},
     math::{levels::Precision, simd::SimdLevel},
     value::{BufferPool, Image, Kind, Value},
@@ -43,6 +43,14 @@ impl Means<'_> {
     fn tell_white(&self, fault: &Error) {
         self.log.tell(LogLevel::Warning, &format!("went on with white: {fault}"));
     }
+}
+
+/// The inputs of a node.
+struct Inputs {
+    /// The stored values.
+    values: Vec<Option<Value>>,
+    /// For each input, whether there is a value or a row at a time.
+    connected: Vec<bool>,
 }
 
 /// The values of all nodes while a plan is carried out, and what went wrong on the way.
@@ -105,24 +113,29 @@ impl<'a, 'g> Execution<'a, 'g> {
         }
     }
 
-    fn context<'b>(&'b self, node: &Node<'_>, inputs: &'b [Option<Value>]) -> Context<'b> {
+    fn context<'b>(&'b self, node: &Node<'_>, inputs: &'b Inputs) -> Context<'b> {
         let (width, height) = self.plan.sizes.working();
         Context {
             width,
             height,
             seed: node.seed,
             simd: self.means.simd,
-            inputs,
+            inputs: &inputs.values,
+            connected: &inputs.connected,
             pool: self.means.pool,
             files: self.means.files,
             progress: self.means.monitor,
         }
     }
 
-    /// The stored values at the inputs of a node.
-    fn inputs(&self, node: &Node<'_>) -> Vec<Option<Value>> {
+    fn inputs(&self, node: &Node<'_>) -> Inputs {
         let value = |link: &super::nodes::Link| self.values[link.node][link.output].clone();
-        node.inputs.iter().map(|link| link.as_ref().and_then(value)).collect()
+        let values: Vec<_> = node.inputs.iter().map(|link| link.as_ref().and_then(value)).collect();
+        let comes_in_rows = |port| node.access(port) == Access::SameRow;
+        let connected = node.inputs.iter().zip(&values).enumerate().map(|(port, (link, value))| {
+            value.is_some() || (link.is_some() && comes_in_rows(port))
+        });
+        Inputs { connected: connected.collect(), values }
     }
 
     fn compute_whole(&mut self, stage: &Stage) -> Result<(), Error> {
@@ -296,7 +309,7 @@ impl<'a, 'g> Execution<'a, 'g> {
         };
         let sources = node.inputs.iter().enumerate().map(|(port, link)| {
             let Some(link) = link else { return RowSource::None };
-            if node.access(port) == crate::block::Access::Anywhere {
+            if node.access(port) == Access::Anywhere {
                 return RowSource::None;
             }
             match stage.members.iter().position(|member| *member == link.node) {

@@ -55,7 +55,7 @@ impl GatherBlock for Convolution {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (channel, out) in out.iter_mut().enumerate() {
             self.matrix.write::<L>(&self.image, channel, cx, out);
         }

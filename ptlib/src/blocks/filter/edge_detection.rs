@@ -98,7 +98,7 @@ impl GatherBlock for EdgeDetection {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (channel, out) in out.iter_mut().enumerate() {
             match self {
                 Self::Nothing(image) => out.copy_from_slice(image.row(channel, cx.y)),
@@ -124,7 +124,7 @@ impl GatherBlock for EdgeDetection {
 impl Edges {
     /// Writes a piece of a row, from column `x` on.
     #[inline(always)]
-    fn write(&self, channel: usize, cx: &RowContext, x: usize, out: &mut [f32]) {
+    fn write(&self, channel: usize, cx: &RowContext<'_>, x: usize, out: &mut [f32]) {
         let mut edges = [0; PIECE];
         let mut add = |sums: [i32; PIECE]| {
             for (edge, sum) in edges.iter_mut().zip(sums) {

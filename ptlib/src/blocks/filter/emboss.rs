@@ -80,7 +80,7 @@ impl GatherBlock for Emboss {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (channel, out) in out.iter_mut().enumerate() {
             match self {
                 Self::Nothing(image) => out.copy_from_slice(image.row(channel, cx.y)),
@@ -99,7 +99,7 @@ impl GatherBlock for Emboss {
 
 impl Slopes {
     /// The slopes of a row, which run to the right.
-    fn along_row(&self, channel: usize, cx: &RowContext) -> RunningSum<'_, i32, 2> {
+    fn along_row(&self, channel: usize, cx: &RowContext<'_>) -> RunningSum<'_, i32, 2> {
         let below = if cx.y + 1 == cx.height { 0 } else { cx.y + 1 };
         let tap = |(row, column_0): (_, usize), x| Tap::new(row, column_0 as i64 + x);
         let columns = |y| self.columns.row(channel, y);

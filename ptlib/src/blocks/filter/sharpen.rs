@@ -67,7 +67,7 @@ impl GatherBlock for Sharpen {
     }
 
     #[inline(always)]
-    fn row<L: Levels>(&self, cx: &RowContext, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
+    fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (channel, out) in out.iter_mut().enumerate() {
             let pixels = self.image.row(channel, cx.y);
             let Some(Square { columns, row, count, fixed, unit }) = &self.square else {

@@ -1,6 +1,7 @@
 //! Blocks that make a pattern from nothing.
 
-crate::family!("noise": bump_noise, perlin_noise, simple_noise, voronoi_diagram);
+crate::family!("noise": bump_noise, fault_formation_noise, perlin_noise, simple_noise, voronoi_diagram);
 
-mod lattice;
+mod fault;
+pub(super) mod lattice;
 mod voronoi;

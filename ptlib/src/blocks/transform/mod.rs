@@ -1,3 +1,3 @@
 //! Blocks that move pixels to other places.
 
-crate::family!("transform": circle_transform, glass, tile);
+crate::family!("transform": circle_transform, geometric_transform, glass, radius_transform, tile);

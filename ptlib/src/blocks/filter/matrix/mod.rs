@@ -130,7 +130,7 @@ impl Matrix {
         &self,
         image: &Image,
         channel: usize,
-        cx: &RowContext,
+        cx: &RowContext<'_>,
         out: &mut [f32],
     ) {
         match self {
@@ -170,7 +170,13 @@ impl<T: Number> Taps<T> {
     }
 
     #[inline(always)]
-    fn write<L: Levels>(&self, image: &Image, channel: usize, cx: &RowContext, out: &mut [f32]) {
+    fn write<L: Levels>(
+        &self,
+        image: &Image,
+        channel: usize,
+        cx: &RowContext<'_>,
+        out: &mut [f32],
+    ) {
         let mut near = [[T::ZERO; PIECE_AND_MARGIN]; MAX_SIDE];
         for (piece, out) in out.chunks_mut(PIECE).enumerate() {
             let first = (piece * PIECE) as i64 - self.left as i64;

@@ -292,10 +292,10 @@ impl Default for LeastTwo {
 impl LeastTwo {
     #[inline(always)]
     fn add(&mut self, numbers: &[f32; SIDE]) {
-        for lane in 0..SIDE {
-            let greater_one = greater(self.first[lane], numbers[lane]);
+        for (lane, number) in numbers.iter().enumerate() {
+            let greater_one = greater(self.first[lane], *number);
             self.second[lane] = lesser(self.second[lane], greater_one);
-            self.first[lane] = lesser(self.first[lane], numbers[lane]);
+            self.first[lane] = lesser(self.first[lane], *number);
         }
     }
 
