@@ -99,11 +99,11 @@ fn compare_one(engine: &Engine, path: &Path, tolerance: &Tolerance) -> Result<Ve
     let expected = Levels::read(&path.with_extension("png"));
     let found = Levels::of(&image);
     let difference = found.difference(&expected, tolerance.step);
-    println!("{}: {:.4} {:.4} %", path.display(), difference.mean, difference.far * 100.0);
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    println!("{name}: off by {:.4} levels in the mean", difference.mean);
     if difference.mean <= tolerance.mean && difference.far <= tolerance.far {
         return Ok(Vec::new());
     }
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let written = found.write(&format!("{name}-found"));
     found.contrast(&expected).write(&format!("{name}-difference"));
     Err(format!(

@@ -257,7 +257,8 @@ fn outputs_tile() {
                 println!("{id}, {precision:?}: {reason}");
                 continue;
             }
-            let mut specimen = Specimen::new(&engine, spec, 128, 96).precision(precision);
+            let specimen = Specimen::new(&engine, spec, 128, 96).precision(precision);
+            let mut specimen = specimen.with_moved_inputs();
             specimen.graph.set_seed(seed);
             let mut what = format!("{id}, {precision:?}");
             for _ in 0..8 {

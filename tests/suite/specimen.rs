@@ -48,6 +48,26 @@ impl Specimen {
         Self { graph, block }
     }
 
+    /// The specimen with its input images moved: the lattices of the noises in them meet at the
+    /// edges, and there alone all of them have a crease at the same place.
+    pub fn with_moved_inputs(mut self) -> Self {
+        let inputs = self.graph.block(self.block).expect("added above").inputs().to_vec();
+        for (port, source) in (0..).zip(inputs) {
+            let Some(source) = source else { continue };
+            let move_it = self.graph.add("geometric transform").expect("built in");
+            if self.graph.connect(source.block, source.output, move_it, 0).is_err() {
+                self.graph.remove(move_it).expect("just added");
+                continue;
+            }
+            for (param, share) in [("shift x", 0.37), ("shift y", 0.23)] {
+                let share = ParamValue::Float(share);
+                self.graph.set(move_it, param, share).expect("the block has it");
+            }
+            self.graph.connect(move_it, 0, self.block, port).expect("images");
+        }
+        self
+    }
+
     /// The specimen in that precision.
     pub fn precision(mut self, precision: Precision) -> Self {
         self.graph.set_precision(precision);

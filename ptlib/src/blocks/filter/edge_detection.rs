@@ -25,7 +25,7 @@ choice! {
         Horizontal = "horizontal",
         /// Those between dark above and bright below.
         Vertical = "vertical",
-        /// Both.
+        /// Both kinds, added.
         Both = "both",
     }
 }
