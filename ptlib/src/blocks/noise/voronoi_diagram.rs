@@ -92,8 +92,8 @@ pub static BLOCK: BlockSpec = BlockSpec::point::<Voronoi>(About {
     inputs: &[input("l-system", Kind::Text).optional()],
     outputs: &[output("image", Planes::Grey)],
     uses_seed: true,
-    tiling: Tiling::Except(
-        "in 8-bit precision figures that reach far beyond the image leave seams, unless distances \
+    tiling: Tiling::ExceptInEightBit(
+        "figures that reach far beyond the image leave seams, unless distances \
          are taken in a straight line",
     ),
     in_pixels: "what the shades of cells are made from, in 8-bit precision",

@@ -42,9 +42,9 @@ pub static BLOCK: BlockSpec = BlockSpec::point::<Marble>(About {
     inputs: &[input("noise", Kind::Image).optional()],
     outputs: &[output("image", Planes::Grey)],
     uses_seed: true,
-    tiling: Tiling::Except(
-        "in 8-bit precision stripes that follow each other downwards are measured by the width, \
-         so they tile only where the height equals it",
+    tiling: Tiling::ExceptInEightBit(
+        "stripes that follow each other downwards are measured by the width, so they tile only \
+         where the height equals it",
     ),
     ..About::DEFAULT
 });

@@ -48,6 +48,9 @@ pub static BLOCK: BlockSpec = BlockSpec::whole::<Substrate>(About {
     summary: "Cracks that grow until they meet, with coloured areas between them.",
     outputs: &[output("image", Planes::ByParameters)],
     uses_seed: true,
+    tiling: Tiling::ExceptInEightBit(
+        "cracks along the left edge may stay black where all others are covered",
+    ),
     in_pixels: "the width of the cracks",
     ..About::DEFAULT
 });
