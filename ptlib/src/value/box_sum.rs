@@ -157,24 +157,40 @@ struct RingWindow {
     is_negative: bool,
 }
 
-/// Cuts the places 0..`count` of a ring into runs in which no tap wraps. Taps are positions on a
-/// ring of `length`, for place 0; `run` gets the places, and the taps for the first of them.
-#[inline(always)]
-fn for_runs<const K: usize>(
-    mut taps: [[usize; K]; 2],
+/// The places 0..`count` of a ring, cut into runs in which no tap wraps, with the taps for the first
+/// place of each. (An iterator, because a closure would not be compiled for the SIMD level.)
+struct Runs<const K: usize> {
+    /// Positions on the ring for the next place.
+    taps: [[usize; K]; 2],
     length: usize,
+    done: usize,
     count: usize,
-    mut run: impl FnMut(Range<usize>, [[usize; K]; 2]),
-) {
-    let mut done = 0;
-    while done < count {
-        let to_wrap = taps.iter().flatten().map(|tap| length - tap).min().unwrap_or(count);
-        let step = to_wrap.min(count - done);
-        run(done..done + step, taps);
-        done += step;
-        for tap in taps.iter_mut().flatten() {
-            *tap = if *tap + step == length { 0 } else { *tap + step };
+}
+
+impl<const K: usize> Runs<K> {
+    #[inline(always)]
+    fn new(taps: [[usize; K]; 2], length: usize, count: usize) -> Self {
+        Self { taps, length, done: 0, count }
+    }
+}
+
+impl<const K: usize> Iterator for Runs<K> {
+    type Item = (Range<usize>, [[usize; K]; 2]);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.done == self.count {
+            return None;
         }
+        let rest = self.count - self.done;
+        let to_wrap = self.taps.iter().flatten().map(|tap| self.length - tap).min().unwrap_or(rest);
+        let step = to_wrap.min(rest);
+        let run = (self.done..self.done + step, self.taps);
+        self.done += step;
+        for tap in self.taps.iter_mut().flatten() {
+            *tap = if *tap + step == self.length { 0 } else { *tap + step };
+        }
+        Some(run)
     }
 }
 
@@ -254,7 +270,7 @@ impl<T: Copy, const K: usize> RunningSum<'_, T, K> {
         let Self { mut sum, gained, lost } = self;
         let length = gained.first().map_or(out.len(), |tap| tap.ring.len());
         let taps = [gained.map(|tap| tap.place), lost.map(|tap| tap.place)];
-        for_runs(taps, length, out.len(), |places, taps| {
+        for (places, taps) in Runs::new(taps, length, out.len()) {
             let (start, count) = (places.start, places.len());
             let gained: [_; K] = std::array::from_fn(|k| &gained[k].ring[taps[0][k]..][..count]);
             let lost: [_; K] = std::array::from_fn(|k| &lost[k].ring[taps[1][k]..][..count]);
@@ -264,7 +280,7 @@ impl<T: Copy, const K: usize> RunningSum<'_, T, K> {
                     sum += i64::from(load(gained[k][i])) - i64::from(load(lost[k][i]));
                 }
             }
-        });
+        }
     }
 }
 
@@ -446,12 +462,12 @@ impl<const K: usize> Kernel for FirstRow<'_, '_, K> {
         for place in self.places {
             let (row, column) = plan.at(source, place, *first);
             let count = rows[0].len();
-            for_runs([[column], [column]], width, count, |places, [[column], _]| {
+            for (places, [[column], _]) in Runs::new([[column], [column]], width, count) {
                 let row = &row[column..][..places.len()];
                 for (sum, value) in rows[0][places].iter_mut().zip(row) {
                     *sum = sum.wrapping_add(fixed.integer(*value).wrapping_mul(self.factor));
                 }
-            });
+            }
         }
     }
 }
@@ -477,7 +493,7 @@ impl<const K: usize> Kernel for NextRows<'_, '_, K> {
             let (above, below) = rows.split_at_mut(y);
             let (above, below) = (&*above[y - 1], &mut *below[0]);
             let taps = [plus.map(|(_, column)| column), minus.map(|(_, column)| column)];
-            for_runs(taps, width, above.len(), |places, taps| {
+            for (places, taps) in Runs::new(taps, width, above.len()) {
                 let count = places.len();
                 let plus: [_; K] = std::array::from_fn(|k| &plus[k].0[taps[0][k]..][..count]);
                 let minus: [_; K] = std::array::from_fn(|k| &minus[k].0[taps[1][k]..][..count]);
@@ -490,7 +506,7 @@ impl<const K: usize> Kernel for NextRows<'_, '_, K> {
                     }
                     *below = sum;
                 }
-            });
+            }
         }
     }
 }

@@ -25,7 +25,7 @@ choice! {
         Horizontal = "horizontal",
         /// Those between dark above and bright below.
         Vertical = "vertical",
-        /// Both kinds, added.
+        /// Those of both kinds, added.
         Both = "both",
     }
 }

@@ -2,15 +2,12 @@
 //!
 //! Specification 2.1. Distances wrap around, so the diagram tiles wherever its points lie. Where
 //! they lie is [`placement`]'s business; [`Cells`] finds the few that matter for a pixel.
-//!
-//! PT Designer takes the shorter way around also to points that lie more than a turn from a pixel,
-//! as those of large figures do. It is negative then, and what it gives outside of 0..255 is taken
-//! modulo 256; the texture `big x` is made of that. In 8-bit precision it is kept; in float
-//! precision, points are wrapped first.
+//! In 8-bit precision the points of figures may lie beyond the image: see [`shown`].
 
 use super::voronoi::{
     Cells, Chebyshev, Euclidean, Measure, Point, Taxicab,
     placement::{self, Layout},
+    shown,
 };
 use crate::block::prelude::*;
 
@@ -191,29 +188,14 @@ impl Voronoi {
     fn write<L: Levels, M: Measure>(&self, cells: &Cells, cx: &RowContext<'_>, out: &mut [f32]) {
         match self.shows {
             Shows::Distance => cells.nearest::<M>(cx, out, |nearest, _| {
-                let value = M::distance(nearest) * self.unit;
-                let value = if value < 1.0 { value } else { 1.0 };
-                if L::EIGHT_BIT && value < 0.0 { modulo_256(value * 255.0) } else { value }
+                shown::distance::<L>(M::distance(nearest) * self.unit)
             }),
             Shows::Ratio => cells.nearest_two::<M>(cx, out, |nearest, second| {
-                let (nearest, second) = (M::distance(nearest), M::distance(second));
-                // Equal distances give 1 by themselves; two points here would give 0/0.
-                let ratio = if nearest == 0.0 { 0.0 } else { nearest / second };
-                if L::EIGHT_BIT && !(0.0..=1.0).contains(&ratio) {
-                    modulo_256(255.0 * nearest / second)
-                } else {
-                    ratio
-                }
+                shown::ratio::<L>(M::distance(nearest), M::distance(second))
             }),
             Shows::Shade => cells.nearest::<M>(cx, out, |_, shade| shade),
         }
     }
-}
-
-/// The value of a level that has left 0..255.
-#[inline(always)]
-fn modulo_256(level: f32) -> f32 {
-    levels::from_level(convert::level(convert::truncate(level) & 255))
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@
 //! stays within for certain. The two nearest points of every pixel then are among those that may
 //! come as near as the second least of the latter. The image is cut into parts, which are made on
 //! all threads; in a part, squares are halved in both directions down to a single tile, and each
-//! looks only at the points of the one it came from.
+//! looks only at the points of the one it came from. Where points are spread out, the largest
+//! squares are small already, and get their points from the [`Buckets`] around them.
 
 use std::{marker::PhantomData, ops::Range};
 
@@ -87,6 +88,12 @@ impl Candidates {
         Self { numbers: numbers.to_vec(), x, y }
     }
 
+    fn append(&mut self, other: &Self, range: Range<usize>) {
+        self.numbers.extend_from_slice(&other.numbers[range.clone()]);
+        self.x.extend_from_slice(&other.x[range.clone()]);
+        self.y.extend_from_slice(&other.y[range]);
+    }
+
     fn clear(&mut self) {
         self.numbers.clear();
         self.x.clear();
@@ -102,9 +109,9 @@ pub(super) struct Part {
     tiles: [usize; 2],
     /// How many members its lists may have together.
     room: usize,
-    /// Squares, and their lists in `members`.
-    pub(super) lists: Vec<(Square, Range<usize>)>,
-    /// Numbers of points, in rising order in each list.
+    /// Squares, and where their lists in `members` end; each starts where the one before ends.
+    pub(super) lists: Vec<(Square, usize)>,
+    /// Numbers of points; where only the nearest one is needed, in rising order in each list.
     pub(super) members: Vec<u32>,
 }
 
@@ -127,19 +134,115 @@ impl Part {
         squares.into_iter().map(part).collect()
     }
 
-    /// Makes the lists from all points.
+    /// Makes the lists.
     pub(super) fn cut<M: Measure>(
         &mut self,
         torus: Torus,
-        points: &Candidates,
+        points: &Buckets,
         cx: &Context<'_>,
     ) -> Result<(), Error> {
         let mut sizes = Vec::new();
         sizes.resize_with(self.square.side.ilog2() as usize + 1, Candidates::default);
         let measure = PhantomData::<M>;
         let square = self.square;
-        Cutting { part: self, torus, cx, scratch: Scratch::default(), measure }
-            .cut(square, points, &mut sizes)
+        let mut cutting = Cutting { part: self, torus, cx, scratch: Scratch::default(), measure };
+        let mut near = Candidates::default();
+        let step = |first: usize| (first..first + square.side).step_by(points.side);
+        for (x, y) in step(square.y).flat_map(|y| step(square.x).map(move |x| (x, y))) {
+            let square = Square { x, y, side: points.side.min(square.side) };
+            cutting.start(square, points, &mut near, &mut sizes)?;
+        }
+        Ok(())
+    }
+}
+
+/// Points by the square that they lie in.
+#[derive(Debug)]
+pub(super) struct Buckets {
+    /// Square by square, row by row.
+    points: Candidates,
+    /// Where each square's points start; then the end of the last one's.
+    starts: Vec<usize>,
+    /// Squares across and down.
+    count: [usize; 2],
+    /// Tiles along the side of a square, a power of 2.
+    side: usize,
+}
+
+/// As many points lie in a bucket in the mean, at most.
+const POINTS_PER_BUCKET: usize = 12;
+
+impl Buckets {
+    /// The points of an image of that many tiles.
+    pub(super) fn new(points: &Candidates, tiles: [usize; 2], torus: Torus) -> Self {
+        let whole = tiles[0].max(tiles[1]).next_power_of_two();
+        let is_inside = |places: &[f32], size| places.iter().all(|at| (0.0..size).contains(at));
+        let [width, height] = torus.size;
+        let mut side = whole;
+        if is_inside(&points.x, width) && is_inside(&points.y, height) {
+            let count = points.numbers.len();
+            while side > 1 && count * side * side > POINTS_PER_BUCKET * tiles[0] * tiles[1] {
+                side /= 2;
+            }
+        }
+        let buckets = Self::sorted(points, tiles, side);
+        // Squares in the void look far around. Where most buckets are empty, one is better.
+        let used = buckets.starts.windows(2).filter(|ends| ends[0] < ends[1]).count();
+        if used * 2 > buckets.starts.len() { buckets } else { Self::sorted(points, tiles, whole) }
+    }
+
+    fn sorted(points: &Candidates, tiles: [usize; 2], side: usize) -> Self {
+        let count = tiles.map(|tiles| tiles.div_ceil(side));
+        let bucket = |x: f32, y: f32| {
+            let [column, row] = [(x, count[0]), (y, count[1])]
+                .map(|(at, count)| (convert::truncate_to_index(at) / (side * SIDE)).min(count - 1));
+            row * count[0] + column
+        };
+        let places: Vec<_> = points.x.iter().zip(&points.y).map(|(x, y)| bucket(*x, *y)).collect();
+        let mut starts = vec![0; count[0] * count[1] + 1];
+        for place in &places {
+            starts[place + 1] += 1;
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut next = starts.clone();
+        let mut order = vec![0; places.len()];
+        for (i, place) in places.iter().enumerate() {
+            order[next[*place]] = i;
+            next[*place] += 1;
+        }
+        let points = Candidates {
+            numbers: order.iter().map(|i| points.numbers[*i]).collect(),
+            x: order.iter().map(|i| points.x[*i]).collect(),
+            y: order.iter().map(|i| points.y[*i]).collect(),
+        };
+        Self { points, starts, count, side }
+    }
+
+    /// Writes the points of the bucket at tile (`x`, `y`) and of `rings` rings of buckets around
+    /// it. Returns how far in one direction all other points are from it at least.
+    fn around(&self, [x, y]: [usize; 2], rings: usize, torus: Torus, near: &mut Candidates) -> f32 {
+        near.clear();
+        let [columns, rows] = [(x, self.count[0]), (y, self.count[1])].map(|(first, count)| {
+            let wanted = 2 * rings + 1;
+            let first = first / self.side + rings.div_ceil(count) * count - rings;
+            if wanted < count { (first % count, wanted) } else { (0, count) }
+        });
+        let (right, wrapped) = (self.count[0].min(columns.0 + columns.1), columns.0 + columns.1);
+        for row in (rows.0..rows.0 + rows.1).map(|row| row % self.count[1]) {
+            let row = row * self.count[0];
+            let ends = |from: usize, to: usize| self.starts[row + from]..self.starts[row + to];
+            near.append(&self.points, ends(columns.0, right));
+            near.append(&self.points, ends(0, wrapped - right));
+        }
+        if columns.1 == self.count[0] && rows.1 == self.count[1] {
+            return f32::INFINITY;
+        }
+        // The last bucket of a row or column may be narrower than the others.
+        let side = convert::position(self.side * SIDE);
+        let missing = [0, 1].map(|i| convert::position(self.count[i]) * side - torus.size[i]);
+        convert::position(rings) * side - greater(missing[0], missing[1])
     }
 }
 
@@ -148,7 +251,9 @@ impl Part {
 struct Scratch {
     /// Comparison numbers of the least distances.
     least: Vec<f32>,
-    /// Places of candidates.
+    /// All places of candidates.
+    places: Vec<u32>,
+    /// Places of candidates, or their numbers.
     picked: Vec<u32>,
 }
 
@@ -162,37 +267,78 @@ struct Cutting<'a, M> {
 }
 
 impl<M: Measure> Cutting<'_, M> {
-    /// Cuts a square, whose pixels have their nearest points among `candidates`. There is memory
-    /// for its own candidates and those of each smaller size of squares.
+    /// Cuts a square in a bucket, with points from the buckets around. There is memory for its own
+    /// candidates and those of each smaller size of squares.
+    fn start(
+        &mut self,
+        square: Square,
+        points: &Buckets,
+        near: &mut Candidates,
+        sizes: &mut [Candidates],
+    ) -> Result<(), Error> {
+        if self.is_outside(square) {
+            return Ok(());
+        }
+        let mut rings = 1;
+        loop {
+            self.cx.check()?;
+            let known = points.around([square.x, square.y], rings, self.torus, near);
+            let reach = self.pick(square, near, sizes);
+            if reach <= M::compare(known, 0.0) {
+                return self.settle(square, sizes);
+            }
+            rings *= 2;
+        }
+    }
+
+    /// Cuts a square, whose pixels have their nearest points among `candidates`.
     fn cut(
         &mut self,
         square: Square,
         candidates: &Candidates,
         sizes: &mut [Candidates],
     ) -> Result<(), Error> {
-        let part = &mut *self.part;
-        let Some((own, smaller)) = sizes.split_first_mut() else { return Ok(()) };
-        if square.x >= part.tiles[0] || square.y >= part.tiles[1] {
+        if self.is_outside(square) {
             return Ok(());
         }
+        self.pick(square, candidates, sizes);
+        self.settle(square, sizes)
+    }
+
+    fn is_outside(&self, square: Square) -> bool {
+        square.x >= self.part.tiles[0] || square.y >= self.part.tiles[1]
+    }
+
+    /// Picks the candidates of a square; returns how far they are at most.
+    fn pick(&mut self, square: Square, from: &Candidates, sizes: &mut [Candidates]) -> f32 {
         self.cx.simd.run(Nearby {
-            from: candidates,
-            to: &mut *own,
+            from,
+            to: &mut sizes[0],
             scratch: &mut self.scratch,
             area: square.area(self.torus.size),
             needed: self.torus.needed,
+            is_last: square.side == 1,
             measure: self.measure,
-        });
+        })
+    }
+
+    /// Keeps a square as it is, or cuts it further.
+    fn settle(&mut self, square: Square, sizes: &mut [Candidates]) -> Result<(), Error> {
+        let part = &mut *self.part;
+        let Some((own, smaller)) = sizes.split_first_mut() else { return Ok(()) };
         let count = own.numbers.len();
         // What is left must do for the lists of squares that are not cut yet, too.
         let is_tight = count * 8 > part.room.saturating_sub(part.members.len());
         if square.side == 1 || count <= FEW || is_tight {
             let start = part.members.len();
             part.members.extend_from_slice(&own.numbers);
-            part.lists.push((square, start..part.members.len()));
+            if self.torus.needed == 1 {
+                // Of equally near points, the first one gives the shade.
+                part.members[start..].sort_unstable();
+            }
+            part.lists.push((square, part.members.len()));
             return Ok(());
         }
-        self.cx.check()?;
         square.quarters().into_iter().try_for_each(|quarter| self.cut(quarter, own, smaller))
     }
 }
@@ -204,18 +350,22 @@ struct Nearby<'a, M> {
     scratch: &'a mut Scratch,
     area: Area,
     needed: usize,
+    /// Whether only the numbers are wanted.
+    is_last: bool,
     measure: PhantomData<M>,
 }
 
 impl<M: Measure> Kernel for Nearby<'_, M> {
-    type Output = ();
+    /// The comparison number that those that were copied have at most.
+    type Output = f32;
 
     #[inline(always)]
-    fn run(self) {
+    fn run(self) -> f32 {
         let count = self.from.numbers.len();
-        let Scratch { least, picked } = &mut *self.scratch;
+        let Scratch { least, places, picked } = &mut *self.scratch;
         if least.len() < count {
             least.resize(count, 0.0);
+            places.extend((0..).skip(places.len()).take(count - places.len()));
             picked.resize(count, 0);
         }
         let (least, picked) = (&mut least[..count], &mut picked[..count]);
@@ -228,28 +378,37 @@ impl<M: Measure> Kernel for Nearby<'_, M> {
             (*least, farthest) = self.area.distances::<M>(x, y);
             most.add(&farthest);
         }
-        let (mut x, mut y) = ([0.0; SIDE], [0.0; SIDE]);
-        x[..x_rest.len()].copy_from_slice(x_rest);
-        y[..y_rest.len()].copy_from_slice(y_rest);
-        let (nearest, mut farthest) = self.area.distances::<M>(&x, &y);
-        farthest[x_rest.len()..].fill(f32::INFINITY);
-        most.add(&farthest);
-        least_rest.copy_from_slice(&nearest[..least_rest.len()]);
+        if !x_rest.is_empty() {
+            let (mut x, mut y) = ([0.0; SIDE], [0.0; SIDE]);
+            x[..x_rest.len()].copy_from_slice(x_rest);
+            y[..y_rest.len()].copy_from_slice(y_rest);
+            let (nearest, mut farthest) = self.area.distances::<M>(&x, &y);
+            farthest[x_rest.len()..].fill(f32::INFINITY);
+            most.add(&farthest);
+            least_rest.copy_from_slice(&nearest[..least_rest.len()]);
+        }
         let [first, second] = most.all();
         let reach = if self.needed == 1 { first } else { second };
         // A little farther, because comparison numbers are rounded to 24 bits.
         let reach = reach + reach.abs() * 1e-5 + 1e-3;
+        let names = if self.is_last { &self.from.numbers } else { &*places };
         let mut found = 0;
-        for (place, least) in (0..).zip(&*least) {
+        for (name, least) in names.iter().zip(&*least) {
             // Written in any case, which is faster than to guess which ones are near.
-            picked[found] = place;
+            picked[found] = *name;
             found += usize::from(*least <= reach);
         }
-        let picked = || picked[..found].iter().map(|place| *place as usize);
+        let picked = &picked[..found];
         self.to.clear();
-        self.to.numbers.extend(picked().map(|place| self.from.numbers[place]));
-        self.to.x.extend(picked().map(|place| self.from.x[place]));
-        self.to.y.extend(picked().map(|place| self.from.y[place]));
+        if self.is_last {
+            self.to.numbers.extend_from_slice(picked);
+        } else {
+            let places = || picked.iter().map(|place| *place as usize);
+            self.to.numbers.extend(places().map(|place| self.from.numbers[place]));
+            self.to.x.extend(places().map(|place| self.from.x[place]));
+            self.to.y.extend(places().map(|place| self.from.y[place]));
+        }
+        reach
     }
 }
 

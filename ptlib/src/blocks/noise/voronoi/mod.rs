@@ -6,10 +6,11 @@
 
 mod cutting;
 pub(super) mod placement;
+pub(super) mod shown;
 
 use std::ops::Range;
 
-use self::cutting::{Candidates, Part, Square, Torus};
+use self::cutting::{Buckets, Candidates, Part, Square, Torus};
 use crate::block::prelude::*;
 
 /// Width and height of the smallest tile in pixels: one 256-bit register.
@@ -110,8 +111,8 @@ pub(super) struct Cells {
     tiles: Vec<u32>,
     /// For each list, where it starts in `members`; then the end of the last one.
     starts: Vec<u32>,
-    /// Numbers of points, in rising order in each list, so that the first of several equally near
-    /// points is found first.
+    /// Numbers of points. Where only the nearest is needed they rise in each list, so that the
+    /// first of several equally near points is found first.
     members: Vec<u32>,
 }
 
@@ -147,9 +148,10 @@ impl Cells {
         let candidates = Candidates::of(&points, &distinct);
         let most = Self::most_members(points.len() as u64, (across * down) as u64);
         let torus = Torus { size: [convert::pixels(cx.width), convert::pixels(cx.height)], needed };
+        let buckets = Buckets::new(&candidates, [across, down], torus);
         let mut parts = Part::all(across, down, convert::index(most.cast_signed()));
         cx.parallel_pieces(&mut parts, 1, |_, part| {
-            part.iter_mut().try_for_each(|part| part.cut::<M>(torus, &candidates, cx))
+            part.iter_mut().try_for_each(|part| part.cut::<M>(torus, &buckets, cx))
         })?;
         let mut cells = Self {
             points,
@@ -161,8 +163,10 @@ impl Cells {
             members: Vec::with_capacity(parts.iter().map(|part| part.members.len()).sum()),
         };
         for part in parts {
-            for (square, members) in part.lists {
-                cells.keep(square, &part.members[members]);
+            let mut start = 0;
+            for (square, end) in part.lists {
+                cells.keep(square, &part.members[start..end]);
+                start = end;
             }
         }
         Ok(cells)

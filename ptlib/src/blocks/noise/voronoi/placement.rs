@@ -10,7 +10,43 @@ pub(in crate::blocks::noise) const MAX_CUSTOM: usize = 255;
 /// The most memory of the placement of `points` points, in bytes.
 pub(in crate::blocks::noise) fn bytes_of(points: u64) -> u64 {
     // The points, and the set of places that are taken at its lowest load.
-    points * 40
+    points * 64
+}
+
+/// Which pixels have a point.
+enum Taken {
+    /// One bit for each pixel, where that is little memory.
+    Bits {
+        words: Vec<u64>,
+        width: i64,
+    },
+    Places(HashSet<(i64, i64)>),
+}
+
+impl Taken {
+    /// None, with room for `count` points.
+    fn new(width: u32, height: u32, count: usize) -> Self {
+        let words = (width as usize * height as usize).div_ceil(64);
+        if words <= 4 * count {
+            Self::Bits { words: vec![0; words], width: width.into() }
+        } else {
+            Self::Places(HashSet::with_capacity(count))
+        }
+    }
+
+    /// Takes a pixel; returns whether it had no point.
+    fn insert(&mut self, (x, y): (i64, i64)) -> bool {
+        match self {
+            Self::Bits { words, width } => {
+                let place = convert::index(y * *width + x);
+                let (word, bit) = (&mut words[place / 64], 1 << (place % 64));
+                let is_new = *word & bit == 0;
+                *word |= bit;
+                is_new
+            }
+            Self::Places(places) => places.insert((x, y)),
+        }
+    }
 }
 
 /// What placements are made from.
@@ -47,7 +83,7 @@ impl Layout {
     /// Places that all differ.
     pub(in crate::blocks::noise) fn random(&self, cx: &Context<'_>) -> Result<Places, Error> {
         let count = convert::index(self.count).min(self.width as usize * self.height as usize);
-        let mut taken = HashSet::with_capacity(count);
+        let mut taken = Taken::new(self.width, self.height, count);
         let mut places = Vec::with_capacity(count);
         let mut seed = cx.seed32();
         // A hash need not reach every pixel of a small image, so there is an end to trying.
