@@ -31,7 +31,6 @@ const PENDING: &[&str] = &[
     "replace colors",
     "sharpen",
     "sine transform",
-    "square mosaic",
     "turtle",
 ];
 
@@ -118,7 +117,6 @@ fn compare_one(engine: &Engine, path: &Path, tolerance: &Tolerance) -> Result<Ve
     let expected = Levels::read(&path.with_extension("png"));
     let found = Levels::of(&image);
     let difference = found.difference(&expected, tolerance.step);
-    println!("{}: {:.4} {:.4} %", path.display(), difference.mean, difference.far * 100.0);
     if difference.mean <= tolerance.mean && difference.far <= tolerance.far {
         return Ok(Vec::new());
     }
