@@ -82,7 +82,7 @@ impl WholeBlock for SquareMosaic {
 
     fn compute<L: Levels>(params: &Params, cx: &WholeContext<'_>) -> Result<Vec<Value>, Error> {
         let transformations = params.transformations();
-        check(transformations, params.tiles_x, params.tiles_y)?;
+        outline::check(transformations, params.tiles_x, params.tiles_y)?;
         let texts = [&params.side_1, &params.side_2, &params.side_3, &params.side_4];
         let outline = outline::outline(texts.map(|text| &**text), transformations);
         let side = cx.width;
@@ -147,52 +147,6 @@ impl Params {
         }
         colors.into_iter().map(|level| level.max(1)).collect()
     }
-}
-
-/// Whether tiles with these transformations and in these numbers fill the plane; otherwise all that
-/// contradicts it.
-fn check(transformations: [Transformation; 4], across: i32, down: i32) -> Result<(), Error> {
-    let fault = |parameter: String, message: String, hint: &str| {
-        Error::new(ErrorKind::InvalidArgument, message).with_hint(hint).at_parameter(parameter)
-    };
-    let mut faults = Vec::new();
-    let mut needs_even = false;
-    for (i, transformation) in transformations.into_iter().enumerate() {
-        let parameter = format!("transformation {}", i + 1);
-        let name = Transformation::ITEMS[transformation as usize].id;
-        let (other, hint) = match transformation {
-            Transformation::HalfTurn => (None, ""),
-            Transformation::Shift | Transformation::Glide => {
-                (Some((i + 2) % 4), "opposite sides need the same transformation")
-            }
-            Transformation::QuarterTurn => {
-                (Some((i + 1) % 4), "a quarter turn is possible on all four sides or on none")
-            }
-        };
-        needs_even |= transformation != Transformation::Shift;
-        if let Some(other) = other
-            && transformations[other] != transformation
-        {
-            let found = Transformation::ITEMS[transformations[other] as usize].id;
-            let message = format!(
-                "side {} has \"{name}\", so side {} must have \"{name}\" too, not \"{found}\"",
-                i + 1,
-                other + 1
-            );
-            faults.push(fault(parameter, message, hint));
-        }
-    }
-    if across != down {
-        let message = format!("{across} tiles across and {down} down the image");
-        let hint = "there are as many tiles down the image as across it";
-        faults.push(fault("tiles y".into(), message, hint));
-    }
-    if needs_even && across % 2 != 0 {
-        let message = format!("{across} tiles across the image, but turned or flipped ones");
-        let hint = "the number has to be even, unless all sides have \"shift\"";
-        faults.push(fault("tiles x".into(), message, hint));
-    }
-    Error::from_faults(faults).map_or(Ok(()), Err)
 }
 
 impl SquareMosaic {

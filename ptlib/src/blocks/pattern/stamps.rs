@@ -123,14 +123,14 @@ impl Turn {
     pub(super) fn of(across: Transformation, down: Transformation) -> Self {
         use Transformation::{Glide, HalfTurn, QuarterTurn, Shift};
         match (across, down) {
-            (Shift, Shift) => Self::None,
-            (Shift, HalfTurn) | (HalfTurn, Shift) => Self::Half,
+            // BUG of the original: two glides turned it by 90 degrees, which leaves gaps.
+            (Shift, HalfTurn) | (HalfTurn, Shift) | (Glide, Glide) => Self::Half,
             (Shift, QuarterTurn) | (QuarterTurn, Shift) => Self::Quarter,
             (Shift, Glide) | (Glide, HalfTurn) => Self::Sideways,
             (Glide, Shift) | (HalfTurn, Glide) => Self::Upwards,
-            // BUG of the original: it turned by 90 degrees, which leaves gaps.
-            (Glide, Glide) => Self::Half,
-            (QuarterTurn, _) | (_, QuarterTurn) | (HalfTurn, HalfTurn) => Self::None,
+            (Shift, Shift) | (HalfTurn, HalfTurn) | (QuarterTurn, _) | (_, QuarterTurn) => {
+                Self::None
+            }
         }
     }
 }
