@@ -14,7 +14,7 @@ use ptlib::{ComputeOptions, Engine, EngineOptions};
 use crate::picture::{Levels, folder};
 
 /// Block types of PT Designer that are not there yet. A case that needs one is pending.
-const PENDING: &[&str] = &["l-system", "particles", "square mosaic", "turtle"];
+const PENDING: &[&str] = &["l-system", "particles", "turtle"];
 
 /// How near a picture must be.
 struct Tolerance {

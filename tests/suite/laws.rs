@@ -1,7 +1,7 @@
 //! Laws that every block of the registry keeps. A new block is tested by them without a word here.
 
 use ptlib::{
-    ComputeOptions, Engine, EngineOptions, Image, Precision,
+    ComputeOptions, Engine, EngineOptions, ErrorKind, Image, Precision,
     block::{BlockSpec, Planes},
     math::simd::SimdLevel,
     params::{ParamKind, ParamSpec, ParamValue},
@@ -15,6 +15,16 @@ const PRECISIONS: [Precision; 2] = [Precision::Float, Precision::EightBit];
 fn compute(engine: &Engine, specimen: &Specimen, options: ComputeOptions<'_>) -> Value {
     let Specimen { graph, block } = specimen;
     engine.compute_value(graph, *block, 0, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The value, or nothing if the block says that these parameters do not go together, and what would.
+fn compute_or_refuse(engine: &Engine, specimen: &Specimen) -> Option<Value> {
+    let Specimen { graph, block } = specimen;
+    match engine.compute_value(graph, *block, 0, ComputeOptions::default()) {
+        Ok(value) => Some(value),
+        Err(error) if error.kind() == ErrorKind::InvalidArgument && error.hint().is_some() => None,
+        Err(error) => panic!("{error}"),
+    }
 }
 
 /// The bits of an image; nothing for other values, which no thread or strip can change.
@@ -109,8 +119,9 @@ fn outputs_are_finite_and_in_range_at_every_extreme() {
                 for value in extremes(param) {
                     let what = format!("{} = {value:?}", param.id);
                     specimen.graph.set(specimen.block, param.id, value).expect(&what);
-                    let value = compute(&engine, &specimen, ComputeOptions::default());
-                    check_output(spec, &value, &what);
+                    if let Some(value) = compute_or_refuse(&engine, &specimen) {
+                        check_output(spec, &value, &what);
+                    }
                 }
                 // A path is not reset: its default names no file.
                 if !matches!(param.kind, ParamKind::Path(_)) {
@@ -138,8 +149,9 @@ fn outputs_are_finite_and_in_range_at_random_parameters() {
                     specimen.graph.set(specimen.block, param.id, value).expect(&what);
                 }
             }
-            let value = compute(&engine, &specimen, ComputeOptions::default());
-            check_output(spec, &value, &what);
+            if let Some(value) = compute_or_refuse(&engine, &specimen) {
+                check_output(spec, &value, &what);
+            }
         }
     }
 }
@@ -262,8 +274,9 @@ fn outputs_tile() {
             specimen.graph.set_seed(seed);
             let mut what = format!("{id}, {precision:?}");
             for _ in 0..8 {
-                let value = compute(&engine, &specimen, ComputeOptions::default());
-                check_edges(&value, &what);
+                if let Some(value) = compute_or_refuse(&engine, &specimen) {
+                    check_edges(&value, &what);
+                }
                 what = format!("{id}, {precision:?}");
                 for param in spec.params {
                     if let Some(value) = random_value(param, &mut random) {

@@ -133,18 +133,17 @@ mod tests {
     #[test]
     fn regions_are_those_of_the_definition() {
         let mut number = 1_u32;
-        for (width, height) in [(1, 1), (1, 9), (9, 1), (2, 2), (13, 7), (40, 31)] {
+        for (width, height) in [(1_u32, 1), (1, 9), (9, 1), (2, 2), (13, 7), (40, 31)] {
             for share in [2, 3, 5, 100] {
                 let mut random = || {
                     number = number.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
                     u8::from((number >> 16).is_multiple_of(share))
                 };
                 let mut pixels: Vec<u8> = (0..width * height).map(|_| random()).collect();
-                for start in (0..pixels.len()).step_by(3) {
+                for (start, color) in (0..pixels.len()).step_by(3).zip((2..50).cycle()) {
                     let mut expected = pixels.clone();
-                    let color = 2 + u8::try_from(start % 50).unwrap();
-                    naive(&mut expected, width, start, color);
-                    let mut canvas = Canvas::new(&mut pixels, u32::try_from(width).unwrap());
+                    naive(&mut expected, width as usize, start, color);
+                    let mut canvas = Canvas::new(&mut pixels, width);
                     canvas.fill(start, color, || Ok(())).unwrap();
                     assert_eq!(pixels, expected, "{width} × {height} from {start}");
                 }
