@@ -12,3 +12,4 @@ pub mod elias;
 pub mod levels;
 pub mod ray;
 pub mod simd;
+mod tangent;
