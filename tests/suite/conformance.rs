@@ -27,17 +27,14 @@ const PENDING: &[&str] = &[
     "fault formation noise",
     "geometric transform",
     "grayscale",
-    "l-system",
     "marble",
     "mix channels",
-    "particles",
     "radius transform",
     "replace colors",
     "sharpen",
     "sine transform",
     "square mosaic",
     "substrate",
-    "turtle",
     "wood",
 ];
 

@@ -2,6 +2,7 @@
 
 mod adjust;
 mod color;
+mod drawing;
 mod files;
 mod filter;
 mod light;
@@ -18,6 +19,7 @@ use crate::block::Family;
 pub static FAMILIES: &[&Family] = &[
     &adjust::FAMILY,
     &color::FAMILY,
+    &drawing::FAMILY,
     &files::FAMILY,
     &filter::FAMILY,
     &light::FAMILY,

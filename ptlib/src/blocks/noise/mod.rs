@@ -2,5 +2,5 @@
 
 crate::family!("noise": bump_noise, perlin_noise, simple_noise, voronoi_diagram);
 
-mod lattice;
+pub(in crate::blocks) mod lattice;
 mod voronoi;
