@@ -22,7 +22,9 @@ pub struct Limits {
     pub memory_bytes: u64,
     /// Bytes of a file that a block reads (a picture, a grammar).
     pub read_bytes: u64,
-    /// Symbols of the string of an L-system: it grows exponentially.
+    /// Symbols and values of the text of an L-system: it grows exponentially. The grammar may have
+    /// as many bytes; rewriting may take 64 times as many steps, for rules may replace a text for
+    /// ever; and a turtle may draw 1024 times as many pixels, for one step can have billions.
     pub text_symbols: u32,
 }
 

@@ -30,7 +30,9 @@ impl Specimen {
         let block = graph.add(spec.about.id).expect("the type comes from the registry");
         for (param, kind) in spec.params.iter().map(|param| (param.id, param.kind)) {
             if let ParamKind::Path(FileUse::Read) = kind {
-                let path = ParamValue::Text("in/colour.png".into());
+                let gives_text = spec.about.outputs[0].kind == Kind::Text;
+                let path = if gives_text { "in/tree.txt" } else { "in/colour.png" };
+                let path = ParamValue::Text(path.into());
                 graph.set(block, param, path).expect("a path takes any text");
             }
         }
@@ -39,8 +41,9 @@ impl Specimen {
                 Kind::Image if port % 2 == 0 => colour(&mut graph, u64::from(port)),
                 Kind::Image => grey(&mut graph, u64::from(port)),
                 Kind::Gradient => gradient(&mut graph),
-                // Only optional inputs take a text so far.
-                _ if input.is_optional => continue,
+                // A text would replace what the block makes by itself.
+                Kind::Text if input.is_optional => continue,
+                Kind::Text => text(&mut graph),
                 kind => panic!("no specimen for inputs of kind {}", kind.name()),
             };
             graph.connect(source, 0, block, port).expect("the kinds agree");
@@ -86,6 +89,12 @@ fn gradient(graph: &mut Graph) -> BlockId {
     let stops = "0 10 0 60;90 200 40 20;160 240 200 60;255 250 255 255";
     graph.set_text(gradient, "data", stops).expect("a text");
     gradient
+}
+
+fn text(graph: &mut Graph) -> BlockId {
+    let text = graph.add("l-system").expect("built in");
+    graph.set_text(text, "path", "in/tree.txt").expect("a path takes any text");
+    text
 }
 
 fn colour(graph: &mut Graph, seed: u64) -> BlockId {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::{
     error::{Error, ErrorKind},
+    limits::Limits,
     math::simd::SimdLevel,
     value::{BufferPool, Gradient, Image, Value},
 };
@@ -89,6 +90,8 @@ pub struct Context<'a> {
     pub(crate) pool: &'a Arc<BufferPool>,
     pub(crate) files: &'a dyn Files,
     pub(crate) progress: &'a dyn Progress,
+    pub(crate) limits: &'a Limits,
+    pub(crate) warn: &'a (dyn Fn(Error) + Sync),
 }
 
 /// What a block of shape Point or Gather prepares itself from.
@@ -102,6 +105,12 @@ impl<'a> Context<'a> {
     #[must_use]
     pub fn seed32(&self) -> i32 {
         crate::math::convert::low_bits(self.seed)
+    }
+
+    /// The place of row `y` of the image to make, for code that writes rows.
+    #[must_use]
+    pub fn row(&self, y: u32) -> RowContext<'a> {
+        RowContext { x: 0, y, width: self.width, height: self.height, progress: self.progress }
     }
 
     /// Whether input `port` is connected, also one that only comes row by row.
@@ -178,6 +187,20 @@ impl<'a> Context<'a> {
     /// As [`read_file`](Self::read_file), and [`ErrorKind::Parse`] if it is no picture.
     pub fn read_image(&self, path: &str) -> Result<Image, Error> {
         self.files.read_image(path, self.pool)
+    }
+
+    /// How many symbols the text of an L-system may have. Everything whose time or memory depends on
+    /// such a text is bounded by a multiple of it.
+    #[must_use]
+    pub fn max_text_symbols(&self) -> u64 {
+        u64::from(self.limits.text_symbols)
+    }
+
+    /// Tells the user that something is not as its author meant it, though the block goes on. The
+    /// engine adds which block it is. For few messages: whoever reads a file of a stranger counts
+    /// them.
+    pub fn warn(&self, what: Error) {
+        (self.warn)(what);
     }
 
     /// Goes on, or fails with [`ErrorKind::Cancelled`]: see [`Progress::check`].

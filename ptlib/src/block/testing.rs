@@ -1,11 +1,12 @@
 //! For the tests of blocks: computes one block by itself, as the engine would.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use super::{Access, BlockSpec, Context, Files, Implementation, InputRows, OutputRow, Planes};
 use super::{PortRow, Progress, RowContext, Shape, Store};
 use crate::{
     error::{Error, ErrorKind},
+    limits::Limits,
     math::{levels::Precision, simd::SimdLevel},
     params::ParamValue,
     value::{BufferPool, Image, MAX_PLANES, Value},
@@ -24,6 +25,8 @@ pub(crate) struct Trial {
     precision: Precision,
     simd: SimdLevel,
     piece: usize,
+    files: OneFile,
+    limits: Limits,
 }
 
 impl Trial {
@@ -38,6 +41,8 @@ impl Trial {
             precision: Precision::Float,
             simd: SimdLevel::best(),
             piece: usize::MAX,
+            files: OneFile(None),
+            limits: Limits::default(),
         }
     }
 
@@ -70,6 +75,18 @@ impl Trial {
 
     pub(crate) fn input(mut self, port: usize, value: impl Into<Value>) -> Self {
         self.inputs[port] = Some(value.into());
+        self
+    }
+
+    /// Whatever path the block reads leads to a file of this content.
+    pub(crate) fn file(mut self, content: &[u8]) -> Self {
+        self.files = OneFile(Some(content.into()));
+        self
+    }
+
+    /// Lets texts of L-systems have that many symbols.
+    pub(crate) fn max_text_symbols(mut self, symbols: u32) -> Self {
+        self.limits.text_symbols = symbols;
         self
     }
 
@@ -136,26 +153,23 @@ impl Trial {
 
     /// All outputs of the block.
     pub(crate) fn compute(&self) -> Result<Vec<Value>, Error> {
-        let pool = BufferPool::new();
-        let whole_inputs: Vec<_> = (0..self.inputs.len()).map(|port| self.whole(port)).collect();
-        let connected: Vec<_> = self.inputs.iter().map(Option::is_some).collect();
-        let context = Context {
-            width: self.width,
-            height: self.height,
-            seed: self.seed,
-            simd: self.simd,
-            inputs: &whole_inputs,
-            connected: &connected,
-            pool: &pool,
-            files: &NoFiles,
-            progress: &Alone,
-        };
-        let mut values = match self.spec.implementation {
-            Implementation::Whole(factory) => {
-                factory.compute(&self.values, self.precision, &context)?
-            }
-            Implementation::Rows(_) => vec![Value::Image(self.rows(&context)?)],
-        };
+        self.compute_and_tell(&|_| ())
+    }
+
+    /// The block's first output, a text, and what the block warned of on the way.
+    pub(crate) fn text_and_warnings(&self) -> Result<(String, Vec<String>), Error> {
+        let warnings = Mutex::new(Vec::new());
+        let warn = |what: Error| warnings.lock().expect("no panic").push(what.to_string());
+        let value = self.compute_and_tell(&warn)?.swap_remove(0);
+        let Value::Text(text) = value else { panic!("gives a {}", value.kind().name()) };
+        Ok((text.to_string(), warnings.into_inner().expect("no panic")))
+    }
+
+    fn compute_and_tell(&self, warn: &(dyn Fn(Error) + Sync)) -> Result<Vec<Value>, Error> {
+        let mut values = self.with_context(warn, |cx| match self.spec.implementation {
+            Implementation::Whole(factory) => factory.compute(&self.values, self.precision, cx),
+            Implementation::Rows(_) => Ok(vec![Value::Image(self.rows(cx)?)]),
+        })?;
         if let Implementation::Whole(_) = self.spec.implementation {
             for (value, port) in values.iter_mut().zip(self.spec.about.outputs) {
                 if let Value::Image(image) = value {
@@ -165,6 +179,29 @@ impl Trial {
             }
         }
         Ok(values)
+    }
+
+    /// Runs something with the context that the block would get.
+    pub(crate) fn with_context<T>(
+        &self,
+        warn: &(dyn Fn(Error) + Sync),
+        run: impl FnOnce(&Context<'_>) -> T,
+    ) -> T {
+        let inputs: Vec<_> = (0..self.inputs.len()).map(|port| self.whole(port)).collect();
+        let connected: Vec<_> = self.inputs.iter().map(Option::is_some).collect();
+        run(&Context {
+            width: self.width,
+            height: self.height,
+            seed: self.seed,
+            simd: self.simd,
+            inputs: &inputs,
+            connected: &connected,
+            pool: &BufferPool::new(),
+            files: &self.files,
+            progress: &Alone,
+            limits: &self.limits,
+            warn,
+        })
     }
 
     /// The input as `prepare` and `compute` see it.
@@ -246,11 +283,15 @@ pub(crate) fn image_of_levels(width: u32, planes: &[&[u8]]) -> Image {
     image
 }
 
-struct NoFiles;
+/// The file that every path leads to.
+#[derive(Clone)]
+struct OneFile(Option<Arc<[u8]>>);
 
-impl Files for NoFiles {
+impl Files for OneFile {
     fn read(&self, path: &str) -> Result<Arc<[u8]>, Error> {
-        Err(Error::new(ErrorKind::Denied, format!("a trial reads no file, not \"{path}\"")))
+        self.0.clone().ok_or_else(|| {
+            Error::new(ErrorKind::Denied, format!("a trial reads no file, not \"{path}\""))
+        })
     }
 
     fn read_image(&self, path: &str, _: &Arc<BufferPool>) -> Result<Image, Error> {

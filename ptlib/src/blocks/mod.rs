@@ -3,6 +3,7 @@
 mod adjust;
 mod automaton;
 mod color;
+mod drawing;
 mod files;
 mod filter;
 mod light;
@@ -21,6 +22,7 @@ pub static FAMILIES: &[&Family] = &[
     &adjust::FAMILY,
     &automaton::FAMILY,
     &color::FAMILY,
+    &drawing::FAMILY,
     &files::FAMILY,
     &filter::FAMILY,
     &light::FAMILY,

@@ -13,3 +13,4 @@ pub mod elias;
 pub mod levels;
 pub mod ray;
 pub mod simd;
+mod tangent;

@@ -4,9 +4,9 @@
 //! the screen, where y points down. Positions are whole numbers without bounds: whoever reads or
 //! writes pixels wraps them.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::{convert, elementary};
+use super::{convert, elementary, tangent};
 
 /// A pixel, perhaps outside of the image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -93,13 +93,15 @@ impl Segment {
     #[must_use]
     pub fn new(first: Position, last: Position) -> Self {
         let (right, up) = (last.x - first.x, first.y - last.y);
-        #[expect(clippy::cast_precision_loss, reason = "distances are far below 2⁵²")]
-        let mut angle = elementary::atan2_64(up as f64, right as f64);
-        if angle <= 0.0 {
-            angle += 2.0 * std::f64::consts::PI;
-        }
-        let count = right.abs().max(up.abs()) + 1;
-        Self { ray: Ray::new(first, angle), angle, count }
+        let (angle, slope) = direction(right, up);
+        let ray = Ray {
+            start: first,
+            is_steep: right.abs() < up.abs(),
+            right: if right < 0 { -1 } else { 1 },
+            down: if up > 0 { -1 } else { 1 },
+            slope,
+        };
+        Self { ray, angle, count: right.abs().max(up.abs()) + 1 }
     }
 
     /// Its pixels, from the first to the last.
@@ -109,10 +111,46 @@ impl Segment {
     }
 }
 
+/// The angle of a line, 0 < angle ≤ 2π, and its pixels along the minor axis for one along the major
+/// axis.
+///
+/// PT Designer finds the angle by the arc tangent in the first quarter of the turn and turns it to
+/// its own; for the slope it turns back and takes the tangent. All of these are rounded, so a slope
+/// of 1/2 comes out a little smaller or larger, and a different one in each quarter. Where that
+/// decides between two pixels, it is followed to the last bit.
+fn direction(right: i64, up: i64) -> (f64, f64) {
+    #[expect(clippy::cast_precision_loss, reason = "distances are far below 2⁵²")]
+    let (across, along) = (right.abs() as f64, up.abs() as f64);
+    if right == 0 || up == 0 {
+        let angle = match (right < 0, up > 0, up < 0) {
+            (_, true, _) => FRAC_PI_2,
+            (_, _, true) => 3.0 * FRAC_PI_2,
+            (true, ..) => PI,
+            (false, ..) => 2.0 * PI,
+        };
+        return (angle, 0.0);
+    }
+    let quotient = along / across;
+    // Some pixel lies half-way between two if and only if the longer side, reduced, is even.
+    let (longer, shorter) = (right.abs().max(up.abs()), right.abs().min(up.abs()));
+    let has_ties = longer.trailing_zeros() > shorter.trailing_zeros();
+    let (arc, excess) =
+        if has_ties { tangent::arc_tangent(quotient) } else { (libm::atan(quotient), 0.0) };
+    let (angle, back) = match (right > 0, up > 0) {
+        (true, true) => (arc, arc),
+        (false, true) => (PI - arc, PI - (PI - arc)),
+        (false, false) => (PI + arc, (PI + arc) - PI),
+        (true, false) => (2.0 * PI - arc, 2.0 * PI - (2.0 * PI - arc)),
+    };
+    let tangent = match has_ties {
+        true => tangent::tangent_near(quotient, excess + (back - arc)),
+        false => quotient,
+    };
+    (angle, if along > across { 1.0 / tangent } else { tangent })
+}
+
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::PI;
-
     use super::*;
 
     fn at(x: i64, y: i64) -> Position {
@@ -152,6 +190,54 @@ mod tests {
             }
         }
         assert_eq!(Segment::new(at(0, 0), at(9, 0)).angle, 2.0 * PI);
+    }
+
+    /// Which of two pixels is drawn where a line passes half-way between them, as seen in pictures
+    /// of PT Designer.
+    #[test]
+    fn ties_go_where_the_original_draws_them() {
+        for (right, up, k, is_farther) in [
+            (4, 2, 1, false),
+            (4, 2, 3, false),
+            (-4, 2, 1, true),
+            (-4, -2, 3, true),
+            (4, -2, 1, true),
+            (-2, -1, 1, true),
+            (-1, -2, 1, true),
+            (1, -2, 1, true),
+            (2, -1, 1, true),
+            (6, -1, 3, true),
+            (10, 1, 5, true),
+            (10, 3, 5, true),
+            (7, 8, 4, true),
+            (-8, 7, 4, true),
+            (-1, 10, 5, false),
+            (3, 10, 5, false),
+        ] {
+            let pixel = Segment::new(at(0, 0), at(right, -up)).ray.at(k);
+            let (longer, shorter) = (right.abs().max(up.abs()), right.abs().min(up.abs()));
+            let minor = k * shorter / longer + i64::from(is_farther);
+            let found = if right.abs() > up.abs() { pixel.y.abs() } else { pixel.x.abs() };
+            assert_eq!(found, minor, "({right}, {up}) at {k}");
+        }
+    }
+
+    #[test]
+    fn angles_of_segments_grow_counter_clockwise() {
+        for (degrees, right, up) in [
+            (45.0, 1, 1),
+            (90.0, 0, 5),
+            (135.0, -7, 7),
+            (180.0, -3, 0),
+            (225.0, -2, -2),
+            (270.0, 0, -1),
+            (315.0, 6, -6),
+            (360.0, 1, 0),
+            (360.0, 0, 0),
+        ] {
+            let angle = Segment::new(at(3, 4), at(3 + right, 4 - up)).angle;
+            assert!((angle.to_degrees() - degrees).abs() < 1e-9, "({right}, {up}): {angle}");
+        }
     }
 
     #[test]

@@ -473,6 +473,7 @@ impl Inner {
             files: &files,
             cache: &self.cache,
             monitor: &monitor,
+            limits: &self.options.limits,
             log: &self.log,
             keep_going: options.keep_going,
             strip_rows: options.strip_rows,

@@ -20,6 +20,7 @@ use super::{
 use crate::{
     block::{Access, Context, Files, Progress, RowKernel, Store},
     error::{Error, ErrorKind},
+    limits::Limits,
     math::{levels::Precision, simd::SimdLevel},
     value::{BufferPool, Image, Kind, Value},
 };
@@ -32,6 +33,7 @@ pub(super) struct Means<'a> {
     pub(super) files: &'a dyn Files,
     pub(super) cache: &'a Cache,
     pub(super) monitor: &'a Monitor<'a>,
+    pub(super) limits: &'a Limits,
     pub(super) log: &'a Log,
     pub(super) keep_going: bool,
     /// Rows of a task; 0 to choose.
@@ -84,6 +86,10 @@ impl<'a, 'g> Execution<'a, 'g> {
             self.means.monitor.check()?;
             match &root.work {
                 Work::Whole(_) if !stage.members.is_empty() => self.compute_whole(stage)?,
+                Work::White if root.outputs.iter().any(|output| output.kind != Kind::Image) => {
+                    self.values[stage.root] = self.white(root)?;
+                    self.means.monitor.add_units(stage.units);
+                }
                 _ => self.compute_rows(stage, sinks)?,
             }
             self.keep(stage);
@@ -113,7 +119,12 @@ impl<'a, 'g> Execution<'a, 'g> {
         }
     }
 
-    fn context<'b>(&'b self, node: &Node<'_>, inputs: &'b Inputs) -> Context<'b> {
+    fn context<'b>(
+        &'b self,
+        node: &Node<'_>,
+        inputs: &'b Inputs,
+        warn: &'b (dyn Fn(Error) + Sync),
+    ) -> Context<'b> {
         let (width, height) = self.plan.sizes.working();
         Context {
             width,
@@ -125,6 +136,8 @@ impl<'a, 'g> Execution<'a, 'g> {
             pool: self.means.pool,
             files: self.means.files,
             progress: self.means.monitor,
+            limits: self.means.limits,
+            warn,
         }
     }
 
@@ -142,7 +155,8 @@ impl<'a, 'g> Execution<'a, 'g> {
         let node = &self.plan.nodes[stage.root];
         let Work::Whole(factory) = node.work else { return Ok(()) };
         let inputs = self.inputs(node);
-        let cx = self.context(node, &inputs);
+        let warn = |what| self.warn(node, what);
+        let cx = self.context(node, &inputs, &warn);
         let computed = guard(|| factory.compute(node.block.values(), self.means.precision, &cx));
         drop(inputs);
         match computed.and_then(|values| self.check_outputs(node, values)) {
@@ -174,17 +188,24 @@ impl<'a, 'g> Execution<'a, 'g> {
     fn tell_strange(&self, node: &Node<'_>, count: u64) {
         if count > 0 {
             let message = format!("gave {count} numbers that are not finite; they became 0");
-            let error = node.at(Error::new(ErrorKind::Internal, message));
-            self.means.log.tell(LogLevel::Warning, &error.to_string());
+            self.warn(node, Error::new(ErrorKind::Internal, message));
         }
     }
 
-    /// White images in place of the outputs of a block that failed.
+    /// Logs what somebody should know of a block.
+    fn warn(&self, node: &Node<'_>, what: Error) {
+        self.means.log.tell(LogLevel::Warning, &node.at(what).to_string());
+    }
+
+    /// White images and empty texts in place of the outputs of a block that failed (specification
+    /// 4.3).
     fn white(&self, node: &Node<'_>) -> Result<Vec<Option<Value>>, Error> {
         let (width, height) = self.plan.sizes.working();
         let outputs = node.outputs.iter().map(|output| {
-            if output.kind != Kind::Image {
-                return Ok(None);
+            match output.kind {
+                Kind::Image => {}
+                Kind::Text => return Ok(Some(Value::Text("".into()))),
+                Kind::Gradient => return Ok(None),
             }
             let mut image = Image::new(self.means.pool, width, height, output.planes)?;
             image.planes_mut().for_each(|plane| plane.fill(1.0));
@@ -340,7 +361,8 @@ impl<'a, 'g> Execution<'a, 'g> {
         match node.work {
             Work::Rows(factory) => {
                 let inputs = self.inputs(node);
-                let cx = self.context(node, &inputs);
+                let warn = |what| self.warn(node, what);
+                let cx = self.context(node, &inputs, &warn);
                 guard(|| factory.prepare(node.block.values(), self.means.precision, &cx))
             }
             _ => Ok(Box::new(White)),

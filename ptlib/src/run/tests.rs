@@ -171,7 +171,8 @@ static WORDS: BlockSpec = BlockSpec::whole::<Words>(About {
 });
 impl WholeBlock for Words {
     type Params = Amount;
-    fn compute<L: Levels>(params: &Amount, _: &WholeContext<'_>) -> Result<Vec<Value>, Error> {
+    fn compute<L: Levels>(params: &Amount, cx: &WholeContext<'_>) -> Result<Vec<Value>, Error> {
+        cx.warn(Error::new(ErrorKind::Parse, "is strange").at_parameter("amount"));
         Ok(if params.amount == 0.0 { vec![String::from("words").into()] } else { vec![] })
     }
 }
@@ -351,15 +352,44 @@ fn going_on_puts_white_in_place_of_what_fails() {
     assert!(engine.compute(&graph, ids[2], 0, ComputeOptions::default()).is_err());
 }
 
+/// Everything that the engine logs from now on.
+fn log_of(engine: &Engine) -> Arc<Mutex<Vec<String>>> {
+    let told = Arc::new(Mutex::new(Vec::new()));
+    let messages = Arc::clone(&told);
+    let log = move |_, message: &str| messages.lock().unwrap().push(message.to_owned());
+    engine.set_log(Some((LogLevel::Info, Arc::new(log))));
+    told
+}
+
+#[test]
+fn blocks_warn_with_their_place() {
+    let engine = engine(0);
+    let (graph, ids) = graph(&engine, &[("words", &[])]);
+    let told = log_of(&engine);
+    engine.compute_value(&graph, ids[0], 0, ComputeOptions::default()).unwrap();
+    assert_eq!(*told.lock().unwrap(), ["block 0 (words), parameter \"amount\": is strange"]);
+}
+
+#[test]
+fn an_empty_text_stands_for_one_that_failed() {
+    let engine = engine(0);
+    let (mut graph, ids) = graph(&engine, &[("words", &[]), ("l-system", &[])]);
+    graph.set_float(ids[0], "amount", 1.0).unwrap();
+    // One fails while it computes, the other because its file cannot be read.
+    for id in ids {
+        assert!(engine.compute_value(&graph, id, 0, ComputeOptions::default()).is_err());
+        let options = ComputeOptions { keep_going: true, ..Default::default() };
+        let value = engine.compute_value(&graph, id, 0, options).unwrap();
+        assert!(matches!(value, Value::Text(text) if text.is_empty()));
+    }
+}
+
 #[test]
 fn strange_numbers_become_black() {
     let engine = engine(0);
     let (mut graph, ids) = graph(&engine, &[("bad", &[])]);
     graph.set_float(ids[0], "amount", 3.0).unwrap();
-    let told = Arc::new(Mutex::new(Vec::new()));
-    let messages = Arc::clone(&told);
-    let log = move |_, message: &str| messages.lock().unwrap().push(message.to_owned());
-    engine.set_log(Some((LogLevel::Info, Arc::new(log))));
+    let told = log_of(&engine);
     let image = engine.compute(&graph, ids[0], 0, ComputeOptions::default()).unwrap();
     assert!(image.channel(0).iter().all(|value| *value == 0.0));
     let told = told.lock().unwrap();

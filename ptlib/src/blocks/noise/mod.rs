@@ -3,5 +3,5 @@
 crate::family!("noise": bump_noise, fault_formation_noise, perlin_noise, simple_noise, voronoi_diagram);
 
 mod fault;
-pub(super) mod lattice;
+pub(in crate::blocks) mod lattice;
 mod voronoi;

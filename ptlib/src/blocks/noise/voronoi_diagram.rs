@@ -4,6 +4,7 @@
 //! they lie is [`placement`]'s business; [`Cells`] finds the few that matter for a pixel.
 //! In 8-bit precision the points of figures may lie beyond the image: see [`shown`].
 
+use super::super::drawing::walk::Start;
 use super::voronoi::{
     Cells, Chebyshev, Euclidean, Measure, Point, Taxicab,
     placement::{self, Layout},
@@ -110,10 +111,6 @@ impl PointBlock for Voronoi {
     type Params = Params;
 
     fn prepare<L: Levels>(params: &Params, cx: &PrepareContext<'_>) -> Result<Self, Error> {
-        if cx.is_connected(TEXT) {
-            let message = "cannot take its points from an L-system in this version";
-            return Err(Error::new(ErrorKind::Unsupported, message));
-        }
         let points: Vec<Point> = place(params, !L::EIGHT_BIT, cx)?
             .into_iter()
             .zip(0..)
@@ -160,6 +157,8 @@ impl PointBlock for Voronoi {
             Place::Custom => placement::MAX_CUSTOM as u64,
             _ => 4 * u64::from(params.count.unsigned_abs()) + 4,
         };
+        // What a text places instead of them is not known here.
+        let points = points.max(placement::MAX_FOLLOWED as u64);
         placement::bytes_of(points) + Cells::bytes_of(points, width, height)
     }
 }
@@ -173,6 +172,10 @@ fn place(
     // In this order of operations, which decides on which pixel a length ends.
     let length = convert::truncate64(f64::from(params.width) * 0.01 * f64::from(cx.width));
     let layout = Layout { width: cx.width, height: cx.height, length, count, wraps };
+    if cx.is_connected(TEXT) {
+        let start = Start { x: params.initial_x, y: params.initial_y, angle: params.initial_angle };
+        return layout.followed(cx.text(TEXT)?, start, cx);
+    }
     match params.place {
         Place::Random => layout.random(cx),
         Place::Square => Ok(layout.square()),
@@ -323,9 +326,34 @@ mod tests {
     }
 
     #[test]
-    fn an_l_system_is_refused() {
-        let text = std::string::String::from("D");
-        let error = Trial::of(&BLOCK).input(TEXT, text).compute().unwrap_err();
-        assert_eq!(error.kind(), ErrorKind::Unsupported);
+    fn a_turtle_places_points_where_its_lines_end() {
+        let size = (40, 30);
+        let text = |text: &str| {
+            let value = std::string::String::from(text);
+            trial(size, 0, 1).input(TEXT, value).int("initial angle", 0).choice("point place", 5)
+        };
+        // Without lines there is the start. Moves place nothing; brackets lead back.
+        let start = [(20, 15)];
+        let lines = [(20, 15), (30, 15), (30, 5)];
+        for (commands, points) in
+            [("", &start[..]), ("GGx", &start), ("M(10)D[L(90)D]R(180)GR(90)GM(15)R(180)G", &lines)]
+        {
+            let expected = naive(size, points, 0, 1);
+            let levels: Vec<_> = text(commands).levels(0).into_iter().map(f64::from).collect();
+            assert_eq!(levels, expected, "{commands}");
+        }
+        // They wrap around: 35 px to the right of column 20 is column 15.
+        let levels: Vec<_> = text("M(35)D").levels(0).into_iter().map(f64::from).collect();
+        assert_eq!(levels, naive(size, &[(20, 15), (15, 15)], 0, 1));
+    }
+
+    #[test]
+    fn a_turtle_places_256_points_at_most() {
+        let zeros = |lines: usize| {
+            let text = format!("M(1){}", "D".repeat(lines));
+            let trial = trial((300, 8), 0, 0).input(TEXT, text).int("initial angle", 0);
+            trial.levels(0).iter().filter(|level| **level == 0).count()
+        };
+        assert_eq!((zeros(254), zeros(255), zeros(290)), (255, 256, 256));
     }
 }

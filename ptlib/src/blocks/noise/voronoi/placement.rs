@@ -2,10 +2,14 @@
 
 use std::collections::HashSet;
 
+use super::super::super::drawing::walk::{Start, Walk};
 use crate::block::prelude::*;
 
 /// The most points of a custom placement.
 pub(in crate::blocks::noise) const MAX_CUSTOM: usize = 255;
+
+/// The most points that a turtle places, its start included.
+pub(in crate::blocks::noise) const MAX_FOLLOWED: usize = 256;
 
 /// The most memory of the placement of `points` points, in bytes.
 pub(in crate::blocks::noise) fn bytes_of(points: u64) -> u64 {
@@ -180,6 +184,25 @@ impl Layout {
                 .extend(arms.map(|(right, down)| self.place(x + right * along, y + down * along)));
         }
         places
+    }
+
+    /// Where the turtle of a text starts, and where its lines end.
+    pub(in crate::blocks::noise) fn followed(
+        &self,
+        text: &str,
+        start: Start,
+        cx: &Context<'_>,
+    ) -> Result<Places, Error> {
+        let mut walk = Walk::new(text, start, cx);
+        // BUG: the original does not wrap them, which is wrong beyond one period.
+        let wrapped = |at: ray::Position| self.wrapped(at.x, at.y);
+        let mut places = vec![wrapped(walk.position())];
+        while places.len() < MAX_FOLLOWED
+            && let Some(line) = walk.next_line(cx)?
+        {
+            places.push(wrapped(line.to));
+        }
+        Ok(places)
     }
 
     /// Where a list `x:y,x:y,…` says. The separators may be any characters; the list ends where
