@@ -7,7 +7,7 @@
 use super::super::drawing::walk::Start;
 use super::voronoi::{
     Cells, Chebyshev, Euclidean, Measure, Point, Taxicab,
-    placement::{self, Layout},
+    placement::{self, Layout, Places},
     shown,
 };
 use crate::block::prelude::*;
@@ -163,11 +163,7 @@ impl PointBlock for Voronoi {
     }
 }
 
-fn place(
-    params: &Params,
-    wraps: bool,
-    cx: &PrepareContext<'_>,
-) -> Result<Vec<(i64, i64)>, Error> {
+fn place(params: &Params, wraps: bool, cx: &PrepareContext<'_>) -> Result<Places, Error> {
     let count = i64::from(params.count);
     // In this order of operations, which decides on which pixel a length ends.
     let length = convert::truncate64(f64::from(params.width) * 0.01 * f64::from(cx.width));

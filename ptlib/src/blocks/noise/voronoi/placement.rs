@@ -68,7 +68,7 @@ pub(in crate::blocks::noise) struct Layout {
     pub(in crate::blocks::noise) wraps: bool,
 }
 
-type Places = Vec<(i64, i64)>;
+pub(in crate::blocks::noise) type Places = Vec<(i64, i64)>;
 
 impl Layout {
     fn wrapped(&self, x: i64, y: i64) -> (i64, i64) {
