@@ -71,16 +71,24 @@ fn alone(engine: &Engine, spec: &'static BlockSpec) -> Result<(Graph, BlockId)> 
         let source = graph.add(source)?;
         graph.connect(source, 0, block, number)?;
     }
-    if spec.params.iter().any(|param| param.kind == ParamKind::Path(FileUse::Read)) {
-        let folder = picture_folder()?;
-        graph.set_folder(Some(folder));
+    name_samples(&mut graph)?;
+    Ok((graph, block))
+}
+
+/// Gives every block that reads a file one that it can read.
+fn name_samples(graph: &mut Graph) -> Result {
+    let blocks: Vec<_> = graph.blocks().map(|(id, block)| (id, block.spec())).collect();
+    for (id, spec) in blocks {
+        let Some(spec) = spec else { continue };
         for param in spec.params {
             if param.kind == ParamKind::Path(FileUse::Read) {
-                graph.set_text(block, param.id, PICTURE)?;
+                let gives_text = spec.about.outputs[0].kind == Kind::Text;
+                graph.set_folder(Some(samples()?));
+                graph.set_text(id, param.id, if gives_text { GRAMMAR } else { PICTURE })?;
             }
         }
     }
-    Ok((graph, block))
+    Ok(())
 }
 
 /// A block that gives a value of that kind and takes nothing.
@@ -95,11 +103,16 @@ fn source_of(engine: &Engine, kind: Kind) -> Result<&'static str> {
 }
 
 const PICTURE: &str = "card.png";
+const GRAMMAR: &str = "tree.txt";
 
-/// A folder with a picture for the blocks that read one.
-fn picture_folder() -> Result<PathBuf> {
+/// A tree of 2¹⁰ twigs.
+const TREE: &str = "B(180)s(0)\ns(x) [x < 10] -> DP(80)[L(25)s(x + 1)][R(25)s(x + 1)]\n";
+
+/// A folder with a picture and a grammar for the blocks that read one.
+fn samples() -> Result<PathBuf> {
     let folder = std::env::temp_dir().join("ptlib-bench");
     fs::create_dir_all(&folder)?;
+    fs::write(folder.join(GRAMMAR), TREE)?;
     let path = folder.join(PICTURE);
     if !path.exists() {
         let mut graph = work::engine(1, 0).new_graph();
