@@ -153,6 +153,17 @@ impl<'a> OutputRow<'a> {
         }
     }
 
+    /// Changes what is in each plane, value by value. The last thing that a block does to a row is
+    /// best done so: the values are stored in the same pass.
+    #[inline(always)]
+    pub fn change(&mut self, f: impl Fn(f32) -> f32) {
+        for channel in 0..self.count {
+            let plane = &mut *self.planes[channel];
+            self.strange += self.stores[channel].change(plane, &f);
+            self.is_stored[channel] = true;
+        }
+    }
+
     /// Stores what the block wrote. Returns how many values were not finite.
     #[inline]
     pub(crate) fn finish(self, simd: SimdLevel) -> u64 {
@@ -176,9 +187,10 @@ mod tests {
         let planes = [&mut red[..], &mut green, &mut blue];
         let mut row = OutputRow::new(planes, &stores);
         row.map(&InputRows::new(&port), 0, |value| value * 2.0);
+        row.change(|value| value * 0.5);
         // Changed after it was stored: it is stored again.
         row.plane(1).fill(-3.0);
         assert_eq!(row.finish(SimdLevel::best()), 3);
-        assert_eq!((red, green, blue), ([0.5, 1.0, 0.0], [0.0; 3], [0.5, 2.0, 0.0]));
+        assert_eq!((red, green, blue), ([0.25, 0.5, 0.0], [0.0; 3], [0.25, 1.0, 0.0]));
     }
 }

@@ -34,6 +34,17 @@ impl Store {
         simd.run(Apply(self, values))
     }
 
+    /// Stores `change` of each value in its place; returns how many were not finite. For code that
+    /// runs inside of a [`Kernel`].
+    #[inline(always)]
+    pub(crate) fn change(self, values: &mut [f32], change: impl Fn(f32) -> f32) -> u32 {
+        match self {
+            Self::Unit => in_place(values, change, unit::<Continuous>),
+            Self::Levels => in_place(values, change, unit::<EightBit>),
+            Self::Free => in_place(values, change, finite),
+        }
+    }
+
     /// Stores `value` of each input; returns how many were not finite. For code that runs inside
     /// of a [`Kernel`]: what is stored as it is made is not read and written once more.
     #[inline(always)]
@@ -86,20 +97,17 @@ impl Kernel for Apply<'_> {
 
     #[inline(always)]
     fn run(self) -> u32 {
-        match self.0 {
-            Store::Unit => in_place(self.1, unit::<Continuous>),
-            Store::Levels => in_place(self.1, unit::<EightBit>),
-            Store::Free => in_place(self.1, finite),
-        }
+        self.0.change(self.1, |value| value)
     }
 }
 
 #[inline(always)]
-fn in_place(values: &mut [f32], store: impl Fn(f32) -> f32) -> u32 {
+fn in_place(values: &mut [f32], change: impl Fn(f32) -> f32, store: impl Fn(f32) -> f32) -> u32 {
     let mut strange = 0;
     for value in values {
-        strange += u32::from(!value.is_finite());
-        *value = store(*value);
+        let changed = change(*value);
+        strange += u32::from(!changed.is_finite());
+        *value = store(changed);
     }
     strange
 }

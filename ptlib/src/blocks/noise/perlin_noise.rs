@@ -3,7 +3,7 @@
 //! Specification 2.5. The name is PT Designer's; it is value noise, not Perlin's gradient noise.
 //! The lattices divide the image, so it tiles for every frequency. [`LatticeNoise`] computes it.
 
-use super::lattice::{LatticeNoise, Settings};
+use super::lattice::{LatticeNoise, Settings, VALUE_OF_LEVEL};
 use crate::block::prelude::*;
 
 params! {
@@ -55,7 +55,8 @@ impl PointBlock for LatticeNoise {
 
     #[inline(always)]
     fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
-        self.write_row::<L>(cx, out.grey());
+        self.write_levels::<L>(cx, out.grey());
+        out.change(|level| level * VALUE_OF_LEVEL);
     }
 
     fn scratch_bytes(params: &Params, width: u32, height: u32) -> u64 {

@@ -81,6 +81,9 @@ pub(in crate::blocks) struct LatticeNoise {
     start: Option<Vec<u8>>,
 }
 
+/// A level times this is its value.
+pub(in crate::blocks) const VALUE_OF_LEVEL: f32 = 1.0 / 255.0;
+
 /// The level of a picture without any noise.
 const MIDDLE: u8 = 128;
 
@@ -112,6 +115,15 @@ impl LatticeNoise {
     /// Writes a part of a row, 0..1.
     #[inline(always)]
     pub(in crate::blocks) fn write_row<L: Levels>(&self, cx: &RowContext<'_>, out: &mut [f32]) {
+        self.write_levels::<L>(cx, out);
+        for value in out {
+            *value *= VALUE_OF_LEVEL;
+        }
+    }
+
+    /// Writes a part of a row in levels, 0..255.
+    #[inline(always)]
+    pub(in crate::blocks) fn write_levels<L: Levels>(&self, cx: &RowContext<'_>, out: &mut [f32]) {
         let mut scratch = Scratch::new();
         let mut x = cx.x as usize;
         for out in out.chunks_mut(CHUNK) {
@@ -129,9 +141,6 @@ impl LatticeNoise {
                 for (level, value) in out.iter_mut().zip(&scratch.values) {
                     *level = (*level + value).clamp(0.0, 255.0);
                 }
-            }
-            for level in out.iter_mut() {
-                *level *= 1.0 / 255.0;
             }
             x += out.len();
         }
