@@ -84,6 +84,8 @@ fn wait(entry: &mut Entry, delay: Duration) -> Result<Option<Duration>> {
     match outcome {
         Ok(()) => Ok(None),
         Err(error) if error.kind() == ErrorKind::Cancelled => Ok(Some(end - requested)),
+        // Some parameters do not go together.
+        Err(error) if error.kind() == ErrorKind::InvalidArgument => Ok(None),
         Err(error) => Err(error.into()),
     }
 }

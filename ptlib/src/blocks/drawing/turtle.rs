@@ -54,6 +54,7 @@ impl WholeBlock for Turtle {
             Start { x: params.initial_x, y: params.initial_y, angle: params.initial_angle };
         let mut walk = Walk::new(cx.text(TEXT)?, start, cx);
         let mut image = cx.new_image(3)?;
+        in_pieces(&mut image, cx, |pixels| pixels.fill(255.0))?;
         let mut planes = image.planes_mut();
         if let (Some(red), Some(green), Some(blue)) = (planes.next(), planes.next(), planes.next())
         {
@@ -69,18 +70,29 @@ impl WholeBlock for Turtle {
             }
         }
         drop(planes);
-        for plane in image.planes_mut() {
-            cx.parallel_pieces(plane, PIXELS, |_, pixels| {
-                pixels.iter_mut().for_each(|level| *level = levels::from_level(*level));
-                Ok(())
-            })?;
-        }
+        in_pieces(&mut image, cx, |pixels| {
+            pixels.iter_mut().for_each(|level| *level = levels::from_level(*level));
+        })?;
         Ok(vec![image.into()])
     }
 
     fn scratch_bytes(params: &Params, width: u32, height: u32) -> u64 {
         Spray::bytes_of(params.noise_intensity, width, height)
     }
+}
+
+/// Changes an image on all threads.
+fn in_pieces(
+    image: &mut Image,
+    cx: &WholeContext<'_>,
+    change: impl Fn(&mut [f32]) + Sync,
+) -> Result<(), Error> {
+    image.planes_mut().try_for_each(|plane| {
+        cx.parallel_pieces(plane, PIXELS, |_, pixels| {
+            change(pixels);
+            Ok(())
+        })
+    })
 }
 
 #[cfg(test)]

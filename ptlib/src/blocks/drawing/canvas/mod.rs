@@ -66,17 +66,10 @@ impl Effort<'_> {
 }
 
 impl<'a> Canvas<'a> {
-    /// A white picture in these planes, which have the size of the context.
+    /// The picture in these planes, which have the size of the context. 255 is white.
     pub(super) fn new(planes: [&'a mut [f32]; 3], spray: Spray, cx: &'a Context<'a>) -> Self {
-        let mut canvas = Self {
-            planes,
-            width: cx.width,
-            height: cx.height,
-            effort: Effort { cx, pixels: 0, next_check: 0 },
-            spray,
-        };
-        canvas.planes.iter_mut().for_each(|plane| plane.fill(255.0));
-        canvas
+        let effort = Effort { cx, pixels: 0, next_check: 0 };
+        Self { planes, width: cx.width, height: cx.height, effort, spray }
     }
 
     /// Draws a line.
