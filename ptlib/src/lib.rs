@@ -4,8 +4,8 @@
 //! of a few KB, and computed at any size when it is needed. An [`Engine`] computes it: on several
 //! threads, with a cache, and with the same bits on every machine.
 //!
-//! The layers, each seeing only those before it: [`math`] → [`value`] → [`mod@params`] → [`block`] →
-//! `blocks`; [`graph`] → [`run`]; `io`; [`ffi`] (the C ABI, on the public interface of this crate
+//! The layers, each seeing only those before it: [`math`] → [`value`] → [`mod@params`] → [`block`]
+//! → `blocks`; [`graph`] → [`run`]; `io`; [`ffi`] (the C ABI, on the public interface of this crate
 //! only). `ARCHITECTURE.md` in the repository is the map.
 
 pub mod block;

@@ -17,7 +17,8 @@ fn compute(engine: &Engine, specimen: &Specimen, options: ComputeOptions<'_>) ->
     engine.compute_value(graph, *block, 0, options).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The value, or nothing if the block says that these parameters do not go together, and what would.
+/// The value, or nothing if the block says that these parameters do not go together, and what
+/// would.
 fn compute_or_refuse(engine: &Engine, specimen: &Specimen) -> Option<Value> {
     let Specimen { graph, block } = specimen;
     match engine.compute_value(graph, *block, 0, ComputeOptions::default()) {

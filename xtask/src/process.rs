@@ -36,7 +36,7 @@ const TOOLS: &[(&str, &str)] = &[
     ("valgrind", "on Debian `apt-get install valgrind`"),
     ("readelf", "on Debian `apt-get install binutils`"),
     ("cargo-clippy", "`rustup component add clippy`"),
-    ("cargo-fmt", "`rustup component add rustfmt`"),
+    ("rustfmt", "`rustup component add rustfmt`"),
     ("cargo-fuzz", "`cargo install --locked cargo-fuzz`"),
 ];
 

@@ -189,8 +189,8 @@ impl<'a> Context<'a> {
         self.files.read_image(path, self.pool)
     }
 
-    /// How many symbols the text of an L-system may have. Everything whose time or memory depends on
-    /// such a text is bounded by a multiple of it.
+    /// How many symbols the text of an L-system may have. Everything whose time or memory depends
+    /// on such a text is bounded by a multiple of it.
     #[must_use]
     pub fn max_text_symbols(&self) -> u64 {
         u64::from(self.limits.text_symbols)

@@ -121,8 +121,8 @@ impl OutputPort {
 pub enum Tiling {
     /// Always: what every block is expected to do.
     Always,
-    /// In float precision always; in 8-bit precision, which keeps what PT Designer did, not: when it
-    /// does not, and why.
+    /// In float precision always; in 8-bit precision, which keeps what PT Designer did, not: when
+    /// it does not, and why.
     ExceptInEightBit(&'static str),
     /// Not always: when it does not, and why, in one sentence.
     Except(&'static str),

@@ -304,7 +304,8 @@ impl<'a, 'g> Execution<'a, 'g> {
             Some(member) => self.plan.nodes[stage.members[member]].at(error),
             None => error,
         })?;
-        // A row may have been left half written because of a request that came after the last check.
+        // A row may have been left half written because of a request that came after the last
+        // check.
         self.means.monitor.check()?;
         drop(members);
         for (member, count) in stage.members.iter().zip(strange) {

@@ -1,12 +1,12 @@
 //! Computing graphs.
 //!
 //! [`Engine`] owns what computations share: the block types, the threads, the cache, recycled
-//! memory, the file policy. A computation takes this way:
+//! memory, the file policy. What callers say to it is in `options`. A computation takes this way:
 //!
 //! 1. `nodes`: the blocks that the wanted outputs need, resolved.
 //! 2. `plan`: what is stored, what is fused, in which order, and how much memory that takes.
-//! 3. `execute`: stage after stage; `rows` runs a stage strip by strip, the store (`block::Store`) is at
-//!    the end of each block, `sink` takes what is wanted.
+//! 3. `execute`: stage after stage; `rows` runs a stage strip by strip, the store (`block::Store`)
+//!    is at the end of each block, `sink` takes what is wanted.
 //! 4. `monitor`: progress and cancelling; `threads`: the pool; `cache` and `key`: what is kept.
 
 mod cache;
@@ -18,6 +18,7 @@ mod key;
 mod log;
 mod monitor;
 mod nodes;
+mod options;
 mod plan;
 mod rows;
 mod sink;
@@ -26,7 +27,8 @@ mod tests;
 mod threads;
 
 pub use cancel::Cancel;
-pub use engine::{
-    ComputeOptions, Engine, EngineOptions, OutputShape, PixelsMut, ProgressFn, ProgressReport,
-};
+pub use engine::Engine;
 pub use log::{LogFn, LogLevel};
+pub use options::{
+    ComputeOptions, EngineOptions, OutputShape, PixelsMut, ProgressFn, ProgressReport,
+};

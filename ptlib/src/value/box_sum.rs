@@ -157,8 +157,8 @@ struct RingWindow {
     is_negative: bool,
 }
 
-/// The places 0..`count` of a ring, cut into runs in which no tap wraps, with the taps for the first
-/// place of each. (An iterator, because a closure would not be compiled for the SIMD level.)
+/// The places 0..`count` of a ring, cut into runs in which no tap wraps, with the taps for the
+/// first place of each. (An iterator, because a closure would not be compiled for the SIMD level.)
 struct Runs<const K: usize> {
     /// Positions on the ring for the next place.
     taps: [[usize; K]; 2],

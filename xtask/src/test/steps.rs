@@ -2,7 +2,7 @@
 
 use super::c_programs;
 use crate::{
-    Result, dist, guide, header,
+    Result, dist, format, guide, header,
     process::{self, cargo, tool},
     repository, tidy,
 };
@@ -23,7 +23,9 @@ pub(super) struct Step {
 
 /// All steps, in their order.
 pub(super) const STEPS: &[Step] = &[
-    quick("format", "the layout of the code is rustfmt's", format),
+    quick("format", "the layout of the code is rustfmt's", |_| {
+        format::run(&["--check".to_owned()])
+    }),
     quick("tidy", "house rules: sizes, layers, ids, dependencies", |_| tidy::run(&[])),
     quick("header", "ptlib.h is what the sources give", |_| header::run(&["--check".to_owned()])),
     quick("clippy", "no warning of rustc or clippy", clippy),
@@ -54,11 +56,6 @@ const fn slow(
     run: fn(bool) -> Result,
 ) -> Step {
     Step { name, about, is_quick: false, needs, run }
-}
-
-fn format(_: bool) -> Result {
-    tool("cargo-fmt")?;
-    process::run(cargo().args(["fmt", "--all", "--check"]))
 }
 
 fn clippy(_: bool) -> Result {

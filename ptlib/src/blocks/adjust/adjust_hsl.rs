@@ -50,11 +50,7 @@ impl PointBlock for AdjustHsl {
     #[inline(always)]
     fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
         let value = |value: f32| {
-            if L::EIGHT_BIT {
-                f64::from(levels::to_level(value)) / 255.0
-            } else {
-                f64::from(value)
-            }
+            if L::EIGHT_BIT { f64::from(levels::to_level(value)) / 255.0 } else { f64::from(value) }
         };
         let [red, green, blue] = inputs.rgb(IMAGE);
         let [out_red, out_green, out_blue] = out.rgb();

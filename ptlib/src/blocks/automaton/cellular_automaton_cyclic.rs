@@ -126,9 +126,7 @@ mod tests {
 
     fn trial(width: u32, height: u32) -> Trial {
         let levels = picture(width, height);
-        Trial::of(&BLOCK)
-            .size(width, height)
-            .input(IMAGE, image_of_levels(width, &[&levels]))
+        Trial::of(&BLOCK).size(width, height).input(IMAGE, image_of_levels(width, &[&levels]))
     }
 
     /// The levels that a plain reading of the specification gives.

@@ -142,7 +142,8 @@ mod tests {
             let part = 2.0 * spread * f64::from(i) / f64::from(count - 1);
             if count == 1 { angle } else { angle - spread + part }
         };
-        let mut particles: Vec<_> = (0..count).map(|i| (start, direction(i) * PI / 180.0)).collect();
+        let mut particles: Vec<_> =
+            (0..count).map(|i| (start, direction(i) * PI / 180.0)).collect();
         let first = v * 0.01 * f64::from(width);
         let mut speed = first;
         while speed > 0.0 {
@@ -153,7 +154,8 @@ mod tests {
                     *level = (*level + convert::truncate64(100.0 * speed / first)).min(255);
                 }
                 *position = ray.at(convert::truncate64(speed));
-                *angle += (127.0 - f64::from(steering[place(*position)])) / 127.0 * 90.0 * PI / 180.0;
+                *angle +=
+                    (127.0 - f64::from(steering[place(*position)])) / 127.0 * 90.0 * PI / 180.0;
             }
             speed *= 0.95;
             if speed <= 0.5 {

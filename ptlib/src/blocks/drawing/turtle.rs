@@ -50,8 +50,7 @@ impl WholeBlock for Turtle {
     type Params = Params;
 
     fn compute<L: Levels>(params: &Params, cx: &WholeContext<'_>) -> Result<Vec<Value>, Error> {
-        let start =
-            Start { x: params.initial_x, y: params.initial_y, angle: params.initial_angle };
+        let start = Start { x: params.initial_x, y: params.initial_y, angle: params.initial_angle };
         let mut walk = Walk::new(cx.text(TEXT)?, start, cx);
         let mut image = cx.new_image(3)?;
         in_pieces(&mut image, cx, |pixels| pixels.fill(255.0))?;
@@ -193,7 +192,12 @@ mod tests {
     }
 
     /// As the specification tells it: a square at every pixel, pixel by pixel.
-    fn naive(from: (i64, i64), to: (i64, i64), (side, gap): (i64, i64), size: (u32, u32)) -> Vec<u8> {
+    fn naive(
+        from: (i64, i64),
+        to: (i64, i64),
+        (side, gap): (i64, i64),
+        size: (u32, u32),
+    ) -> Vec<u8> {
         let mut levels = vec![255; size.0 as usize * size.1 as usize];
         let at = |(x, y): (i64, i64)| ray::Position::new(x, y);
         let mut counter = 0;
@@ -314,7 +318,8 @@ mod tests {
         fails(&"[".repeat(2_000_000), "more than 1048576 brackets");
         // One row, however long it is; and steps that grow beyond all numbers.
         trial("M(2147483647)DT(0,2147483647)DF(2147483647)D", 8, 8).levels(0);
-        trial(&"P(2147483647)I(2147483647)GL(2147483647)R(-2147483648)".repeat(1000), 8, 8).levels(0);
+        trial(&"P(2147483647)I(2147483647)GL(2147483647)R(-2147483648)".repeat(1000), 8, 8)
+            .levels(0);
         trial("W(-2147483648)B(2147483647)B(-2147483648)S(0,-2147483648)D", 8, 8).levels(0);
     }
 

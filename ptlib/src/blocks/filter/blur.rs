@@ -196,8 +196,17 @@ mod tests {
     #[test]
     fn a_step_becomes_a_ramp() {
         // Specification 5: a row 0…0|100 from x = 32|60 from x = 40 to 63.
-        let row: Vec<u8> =
-            (0..64).map(|x| if x < 32 { 0 } else if x < 40 { 100 } else { 60 }).collect();
+        let row: Vec<u8> = (0..64)
+            .map(|x| {
+                if x < 32 {
+                    0
+                } else if x < 40 {
+                    100
+                } else {
+                    60
+                }
+            })
+            .collect();
         let trial = Trial::of(&BLOCK).input(IMAGE, image_of_levels(64, &[&row.repeat(64)]));
         let levels = trial.int("intensity", 2).levels(0);
         let expected = [0, 0, 20, 40, 60, 80, 100, 100, 100, 100, 92, 84, 76, 68, 60, 60];

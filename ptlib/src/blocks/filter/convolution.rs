@@ -112,8 +112,8 @@ mod tests {
                     assert_eq!(found.levels(0), expected, "{size:?} {matrix:?} {unit}");
                     for (value, level) in found.image().channel(0).iter().zip(expected) {
                         let level = f64::from(level);
-                        let is_near = (level - 0.01..level + 1.01)
-                            .contains(&(f64::from(*value) * 255.0));
+                        let is_near =
+                            (level - 0.01..level + 1.01).contains(&(f64::from(*value) * 255.0));
                         assert!(is_near || level == 255.0, "{value} for {level}");
                     }
                 }

@@ -106,10 +106,7 @@ impl Slopes {
         let diagonals = |y| self.diagonals.row(channel, y);
         RunningSum {
             sum: self.starts[channel][cx.y as usize],
-            gained: [
-                tap(columns(cx.y), -self.radius),
-                tap(columns(below), self.radius + 1),
-            ],
+            gained: [tap(columns(cx.y), -self.radius), tap(columns(below), self.radius + 1)],
             lost: [tap(diagonals(cx.y), 0), tap(diagonals(below), 0)],
         }
     }

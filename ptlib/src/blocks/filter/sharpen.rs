@@ -75,11 +75,15 @@ impl GatherBlock for Sharpen {
                 continue;
             };
             let (sums, _) = columns.row(channel, cx.y);
-            row.on(sums, |sum| sum).along(|sum| sum, out, |x, sum| {
-                // Both from the same integers: where all pixels are equal, this is exactly 0.
-                let difference = count * i64::from(fixed.integer(pixels[x])) - sum;
-                pixels[x] + unit.store::<L>(difference)
-            });
+            row.on(sums, |sum| sum).along(
+                |sum| sum,
+                out,
+                |x, sum| {
+                    // Both from the same integers: where all pixels are equal, this is exactly 0.
+                    let difference = count * i64::from(fixed.integer(pixels[x])) - sum;
+                    pixels[x] + unit.store::<L>(difference)
+                },
+            );
         }
     }
 

@@ -48,8 +48,7 @@ impl GatherBlock for NormalMap {
         let size = params.size.unsigned_abs().max(1);
         let fixed = FixedPoint::new::<L>(2 * size + 1);
         let square = Window::around(size);
-        let halves =
-            [Window::new(-i64::from(size), size), Window::new(1, size).negative()];
+        let halves = [Window::new(-i64::from(size), size), Window::new(1, size).negative()];
         let pairs = f64::from(size) * f64::from(2 * size + 1);
         Ok(Self {
             columns: line_sums(cx, image, [square], fixed)?,
@@ -145,8 +144,17 @@ mod tests {
 
     #[test]
     fn follows_the_vector_of_the_specification() {
-        let row: Vec<u8> =
-            (0..64).map(|x| if x < 32 { 0 } else if x < 40 { 100 } else { 60 }).collect();
+        let row: Vec<u8> = (0..64)
+            .map(|x| {
+                if x < 32 {
+                    0
+                } else if x < 40 {
+                    100
+                } else {
+                    60
+                }
+            })
+            .collect();
         let trial = trial(64, &row.repeat(8), 0);
         let levels: [_; 3] = std::array::from_fn(|channel| trial.levels(channel));
         let at = |x: usize| levels.each_ref().map(|levels| levels[64 + x]);

@@ -13,11 +13,7 @@ params! {
 pub static BLOCK: BlockSpec = BlockSpec::point::<MixChannels>(About {
     id: "mix channels",
     summary: "Takes red, green and blue from a picture each.",
-    inputs: &[
-        input("red", Kind::Image),
-        input("green", Kind::Image),
-        input("blue", Kind::Image),
-    ],
+    inputs: &[input("red", Kind::Image), input("green", Kind::Image), input("blue", Kind::Image)],
     outputs: &[output("image", Planes::Colour)],
     ..About::DEFAULT
 });

@@ -87,9 +87,7 @@ mod tests {
             let mut is_inside = vec![false; levels.len()];
             for i in 0..=lines / 2 {
                 let t = if lines / 2 == 0 { 0.0 } else { i as f64 / (lines / 2) as f64 };
-                let between = |a: i64, b: i64| {
-                    convert::truncate64(a as f64 + (b - a) as f64 * t)
-                };
+                let between = |a: i64, b: i64| convert::truncate64(a as f64 + (b - a) as f64 * t);
                 for place in between(a1, b1).max(1)..between(a2, b2) {
                     for line in [i, (lines - i) % lines] {
                         let (x, y) = if along_x { (place, line) } else { (line, place) };
@@ -113,9 +111,8 @@ mod tests {
         for (width, height, seed) in
             [(64, 64, 0), (97, 40, 4), (40, 97, -7), (1, 1, 1), (1, 30, 2), (30, 1, 3), (2, 3, 4)]
         {
-            let trial = Trial::of(&BLOCK)
-                .size(width, height)
-                .seed(u64::from(i32::cast_unsigned(seed)));
+            let trial =
+                Trial::of(&BLOCK).size(width, height).seed(u64::from(i32::cast_unsigned(seed)));
             let expected = naive(i64::from(width), i64::from(height), seed);
             assert_eq!(trial.levels(0), expected, "{width} × {height}, seed {seed}");
             trial.assert_same_bits();

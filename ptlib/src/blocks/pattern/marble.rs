@@ -111,8 +111,7 @@ impl Marble {
         let (right, _) = self.direction.step();
         let start = self.start::<L>(cx);
         // Where a pixel lies, in widths of the image.
-        let position =
-            |i: usize| (start + (right * (x + i as i64)) as f64) / f64::from(cx.width);
+        let position = |i: usize| (start + (right * (x + i as i64)) as f64) / f64::from(cx.width);
         let mut noise = [0.0; PIECE];
         for (noise, value) in noise.iter_mut().zip(&*piece) {
             let level = f64::from(*value * 255.0);
@@ -186,7 +185,11 @@ mod tests {
                 let noise = f64::from(levels[i as usize]) / 255.0;
                 let turns = f64::from(periods) * (f64::from(q) / f64::from(width) + noise * push);
                 let expected = 127.0 + 127.0 * elementary::sin64(2.0 * PI * turns);
-                assert_eq!(i64::from(level), convert::truncate64(expected), "{direction}: {x}, {y}");
+                assert_eq!(
+                    i64::from(level),
+                    convert::truncate64(expected),
+                    "{direction}: {x}, {y}"
+                );
             }
         }
     }

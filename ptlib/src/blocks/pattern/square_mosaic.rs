@@ -215,7 +215,8 @@ mod tests {
                 let image = trial(transformations, tiles).text("fill colors", &colors.join(","));
                 let levels = image.levels(0);
                 for color in 1..=count {
-                    let area = levels.iter().filter(|level| usize::from(**level) == color * 9).count();
+                    let area =
+                        levels.iter().filter(|level| usize::from(**level) == color * 9).count();
                     // Where tiles meet, whole pixels go to the later one.
                     let expected = side * side;
                     assert!(
@@ -230,7 +231,8 @@ mod tests {
     #[test]
     fn without_colours_only_borders_are_not_white() {
         for fill in [0, 1] {
-            let trial = trial([1, 0, 1, 0], 4).choice("fill type", fill).text("fill colors", "0,255");
+            let trial =
+                trial([1, 0, 1, 0], 4).choice("fill type", fill).text("fill colors", "0,255");
             let mut levels = trial.levels(0);
             levels.sort_unstable();
             levels.dedup();

@@ -7,8 +7,8 @@
 //! at most [`COLORS`] such places, so the canvas has a byte a pixel, and the colours come last.
 //!
 //! Where borders are removed, every pixel of a border takes the colour of its left neighbour. In
-//! 8-bit precision column 0 looks around the edge before that row was done, as PT Designer does, and
-//! so may stay black; in float precision it takes the colour that its neighbour has in the end.
+//! 8-bit precision column 0 looks around the edge before that row was done, as PT Designer does,
+//! and so may stay black; in float precision it takes the colour that its neighbour has in the end.
 
 use super::cracks::{self, BLACK, WHITE};
 use crate::block::prelude::*;
@@ -65,8 +65,9 @@ impl WholeBlock for Substrate {
     type Params = Params;
 
     fn compute<L: Levels>(params: &Params, cx: &WholeContext<'_>) -> Result<Vec<Value>, Error> {
-        let [lines, phases] = if params.iterate { [4, params.iterations] } else { [params.lines, 0] }
-            .map(i32::unsigned_abs);
+        let [lines, phases] =
+            if params.iterate { [4, params.iterations] } else { [params.lines, 0] }
+                .map(i32::unsigned_abs);
         let mut pixels = cracks::grow(&cracks::Settings { lines, phases }, cx)?;
         cx.report(0.3);
         if params.fill != Fill::None {
@@ -76,7 +77,8 @@ impl WholeBlock for Substrate {
         let is_grey = Self::is_grey(params);
         let palettes = [0, 1, 2].map(|channel| palette(if is_grey { 0 } else { channel }));
         if params.fill == Fill::NoBorders {
-            let is_black = |number: u8| palettes.iter().all(|levels| levels[usize::from(number)] == 0.0);
+            let is_black =
+                |number: u8| palettes.iter().all(|levels| levels[usize::from(number)] == 0.0);
             remove_borders::<L>(&mut pixels, is_black, cx)?;
         }
         let width = cx.width as usize;
@@ -211,11 +213,11 @@ mod tests {
 
     #[test]
     fn cracks_grow_as_the_specification_tells() {
-        for (width, height, seed) in [(64, 64, 0_u8), (97, 40, 3), (40, 97, 5), (3, 5, 1), (1, 1, 2)] {
-            let trial = Trial::of(&BLOCK)
-                .size(width, height)
-                .seed(u64::from(seed))
-                .choice("fill type", 0);
+        for (width, height, seed) in
+            [(64, 64, 0_u8), (97, 40, 3), (40, 97, 5), (3, 5, 1), (1, 1, 2)]
+        {
+            let trial =
+                Trial::of(&BLOCK).size(width, height).seed(u64::from(seed)).choice("fill type", 0);
             let size = (width, height, i32::from(seed));
             for phases in [0, 1, 3, 10] {
                 let image = trial.clone().int("number of iterations", phases).image();
@@ -251,7 +253,8 @@ mod tests {
     fn extremes_end() {
         let trial = Trial::of(&BLOCK).size(60, 50).int("number of iterations", 999_999);
         trial.image();
-        let trial = trial.flag("iterate", false).int("number of lines", 9999).choice("fill type", 2);
+        let trial =
+            trial.flag("iterate", false).int("number of lines", 9999).choice("fill type", 2);
         trial.levels(0);
         assert_eq!(trial.int("number of lines", 0).choice("fill type", 0).levels(0), [255; 3000]);
     }

@@ -167,7 +167,11 @@ mod tests {
         ] {
             let levels = case.trial().levels(0);
             for (i, (level, expected)) in levels.iter().zip(case.naive()).enumerate() {
-                assert_eq!(*level, expected, "{:?}, direction {}, at {i}", case.size, case.direction);
+                assert_eq!(
+                    *level, expected,
+                    "{:?}, direction {}, at {i}",
+                    case.size, case.direction
+                );
             }
             case.trial().assert_same_bits();
             case.trial().eight_bit().assert_same_bits();

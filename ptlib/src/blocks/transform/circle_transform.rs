@@ -31,9 +31,7 @@ pub static BLOCK: BlockSpec = BlockSpec::gather::<CircleTransform>(About {
     summary: "Takes each pixel from a circle around it, at the angle that its grey level says.",
     inputs: &[input("image", Kind::Image).anywhere()],
     outputs: &[output("image", Planes::As(IMAGE))],
-    tiling: Tiling::ExceptInEightBit(
-        "several jumps leave a seam at the left and the upper edge",
-    ),
+    tiling: Tiling::ExceptInEightBit("several jumps leave a seam at the left and the upper edge"),
     ..About::DEFAULT
 });
 
@@ -142,8 +140,7 @@ impl Walk {
     /// Positions on the first turn.
     #[inline(always)]
     fn new(positions: [i64; PIECE], length: u32) -> Self {
-        let position =
-            positions.map(|position| convert::wrap_near(position, length).cast_signed());
+        let position = positions.map(|position| convert::wrap_near(position, length).cast_signed());
         Self { position, turns: [0; PIECE] }
     }
 

@@ -106,8 +106,7 @@ impl GatherBlock for GeometricTransform {
             let line = &lines.channel(channel)[line * lines.width() as usize..];
             let mut x = cx.x;
             while !out.is_empty() {
-                let Run { first, is_forward, count } =
-                    self.across.run(x, cx.width, lines.width());
+                let Run { first, is_forward, count } = self.across.run(x, cx.width, lines.width());
                 let count = count.min(out.len());
                 let (part, rest) = std::mem::take(&mut out).split_at_mut(count);
                 if is_forward {
@@ -221,9 +220,8 @@ mod tests {
         {
             let (w, h) = (i64::from(width), i64::from(height));
             let levels = picture(width, height);
-            let level = |x: i64, y: i64| {
-                levels[convert::index(y.rem_euclid(h) * w + x.rem_euclid(w))]
-            };
+            let level =
+                |x: i64, y: i64| levels[convert::index(y.rem_euclid(h) * w + x.rem_euclid(w))];
             let turns = i64::from(angle / 90).rem_euclid(4);
             let turned = |x: i64, y: i64| {
                 let p = pivot(i32::try_from(turns).unwrap(), width, height);

@@ -178,8 +178,7 @@ mod tests {
             [((131, 70), 1, 20), ((40, 64), 3, 30), ((9, 5), 0, 400), ((64, 64), 0, 65_536)]
         {
             let levels = picture(width, height);
-            for (left, horizontal) in [(true, true), (true, false), (false, true), (false, false)]
-            {
+            for (left, horizontal) in [(true, true), (true, false), (false, true), (false, false)] {
                 let trial = trial(width, height, &levels)
                     .int("radius min", min)
                     .int("radius max", max)
@@ -227,7 +226,8 @@ mod tests {
         for (i, found) in (0..).zip(image.channel(0)) {
             let (x, y) = (f64::from(i % width), f64::from(i / width));
             let angle = 2.0 * PI * (x / f64::from(width) + y / f64::from(height));
-            let ends = [x + radius * elementary::cos64(angle), y - radius * elementary::sin64(angle)];
+            let ends =
+                [x + radius * elementary::cos64(angle), y - radius * elementary::sin64(angle)];
             let [x, y] = ends.map(|end| convert::truncate64(end.floor()));
             let source = convert::wrap(y, height) * width + convert::wrap(x, width);
             assert_eq!(convert::to_byte(*found), red[source as usize], "from {i}");

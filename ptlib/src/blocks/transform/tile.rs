@@ -76,8 +76,7 @@ impl GatherBlock for Tile {
             return 0;
         }
         // Float precision needs no fewer than 8-bit precision.
-        let (width, height) =
-            (width / gcd(width, times), height / gcd(height, times));
+        let (width, height) = (width / gcd(width, times), height / gcd(height, times));
         Image::bytes_of(width, height, planes)
     }
 }

@@ -301,8 +301,8 @@ pub(super) mod naive {
         (2 * i64::from(radius) + 1, 2 * i64::from(radius) + 1)
     }
 
-    /// Specification 5: what becomes of a row 0…0|100 from x = 32|60 from x = 40 to 63, at x = 28 to
-    /// 43, if all rows are like it.
+    /// Specification 5: what becomes of a row 0…0|100 from x = 32|60 from x = 40 to 63, at x = 28
+    /// to 43, if all rows are like it.
     pub(in crate::blocks::filter) fn of_the_test_row(trial: &Trial) -> Vec<u8> {
         let row: Vec<u8> = (0..64).map(|x| [0, 0, 0, 0, 100, 60, 60, 60][x / 8]).collect();
         let image = image_of_levels(64, &[&row.repeat(64)]);

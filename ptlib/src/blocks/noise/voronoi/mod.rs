@@ -4,13 +4,17 @@
 //! of its pixels, so that a pixel looks at a handful of points, however many there are.
 //! [`cutting`] finds out which these are.
 
+mod buckets;
 mod cutting;
 pub(super) mod placement;
 pub(super) mod shown;
 
 use std::ops::Range;
 
-use self::cutting::{Buckets, Candidates, Part, Square, Torus};
+use self::{
+    buckets::Buckets,
+    cutting::{Candidates, Part, Square, Torus},
+};
 use crate::block::prelude::*;
 
 /// Width and height of the smallest tile in pixels: one 256-bit register.
