@@ -10,7 +10,7 @@ params! {
     /// Parameters of [`BLOCK`].
     Params {
         /// The file with the grammar, relative to the folder of the graph. Its first line is the
-        /// axiom, every other line a rule such as "s(x) [x < 6] : 2 -> D[L(30)s(x + 1)]".
+        /// axiom, every other line a rule such as `s(x) [x < 6] : 2 -> D[L(30)s(x + 1)]`.
         path: path [read] = "";
         /// How many times all symbols are replaced, unless none changes any more. 0 gives the
         /// axiom.

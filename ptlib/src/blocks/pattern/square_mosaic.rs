@@ -1,8 +1,8 @@
 //! Square mosaic: tiles that interlock, as in the pictures of M. C. Escher.
 //!
-//! Specification 2.34. [`outline`] makes the four sides of a tile fit each other, [`stamps`] puts
-//! copies of it side by side. The mosaic is made as a square of the width of the image, which is
-//! then stretched to its height.
+//! Specification 2.34. [`outline`] makes the four sides of a tile fit each other,
+//! [`stamps`](super::stamps) puts copies of it side by side. The mosaic is made as a square of the
+//! width of the image, which is then stretched to its height.
 //!
 //! A transformation that does not fit that of another side is an error that names both: PT Designer
 //! gave a white image.

@@ -24,7 +24,7 @@ const MAX_VALUES: usize = 5;
 #[derive(Debug)]
 pub(super) struct Grammar {
     axiom: Sentence,
-    /// The rules, ordered by [`Rule::key`]; those of one key as in the file.
+    /// The rules, ordered by [`key`]; those of one key as in the file.
     rules: Vec<Rule>,
     /// For each key, where its rules start; then the number of rules.
     starts: Vec<usize>,
