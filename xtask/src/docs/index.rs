@@ -1,4 +1,4 @@
-//! The lists of blocks: `docs/blocks/README.md`, and the part of `docs/SUMMARY.md` behind its
+//! The lists of blocks: `docs/blocks/index.md`, and the part of `docs/SUMMARY.md` behind its
 //! heading "Block reference".
 
 use super::{
@@ -16,10 +16,16 @@ A block of a graph has a type. These are the types, by family; each has a page t
 does, what goes in and out, and what its parameters mean.
 
 On the pages, *allowed* is what a parameter may be, and *usual* the range in which it does what one
-expects: an editor's slider has it. The pictures are 128 × 128 pixels. The first is the block at its
-defaults; the others move every parameter away from them, and say to where. Where the essays speak
-of the *specification*, they mean the description of what PT Designer's blocks compute, whose
-clauses they number; *8-bit precision* is explained in [Units and resolution](../src/units.md).
+expects: an editor's slider has it. Where the essays speak of the *specification*, they mean the
+description of what PT Designer's blocks compute, whose clauses they number; *8-bit precision* is
+explained in [Units and resolution](../src/units.md).
+
+The pictures are 128 × 128 pixels. The first is the block at its defaults; the others move every
+parameter away from them, and say to where. Blocks that take pictures are given these, the first at
+slots 0, 2 and 4, the second at slots 1 and 3, the third where a normal map is wanted:
+
+| ![colour](pictures/given-colour.png) | ![grey](pictures/given-grey.png) | ![normal map](pictures/given-normals.png) |
+|---|---|---|
 ";
 
 /// The index page.
@@ -53,7 +59,7 @@ pub(super) fn summary(summary: &str, blocks: &[Block]) -> Result<String> {
     let (book, _) = summary
         .split_once(HEADING)
         .ok_or_else(|| format!("SUMMARY.md has no heading \"{}\"", HEADING.trim_end()))?;
-    let mut text = format!("{book}{HEADING}\n- [All blocks](blocks/README.md)\n");
+    let mut text = format!("{book}{HEADING}\n- [All blocks](blocks/index.md)\n");
     for block in families(blocks).iter().flat_map(|(_, blocks)| blocks) {
         text.push_str(&format!("  - [{}](blocks/{}.md)\n", block.id, block.slug()));
     }

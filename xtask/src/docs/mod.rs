@@ -67,7 +67,7 @@ fn generate(blocks: &[Block]) -> Result<BTreeMap<String, String>> {
         let essay = essay::read(block)?;
         files.insert(format!("{FOLDER}/{}.md", block.slug()), page::page(block, &essay)?);
     }
-    files.insert(format!("{FOLDER}/README.md"), index::index(blocks)?);
+    files.insert(format!("{FOLDER}/index.md"), index::index(blocks)?);
     let summary = fs::read_to_string(repository::root().join(SUMMARY))?.replace("\r\n", "\n");
     files.insert(SUMMARY.to_owned(), index::summary(&summary, blocks)?);
     Ok(files)
@@ -110,7 +110,8 @@ fn check(blocks: &[Block]) -> Result {
 /// Files among the pages and pictures that no block has.
 fn leftovers(blocks: &[Block], pages: &BTreeMap<String, String>) -> Result<Vec<String>> {
     let drawn = blocks.iter().filter(|block| has_pictures(block));
-    let pictures: BTreeSet<String> = drawn.flat_map(pictures::paths).collect();
+    let mut pictures: BTreeSet<String> = drawn.flat_map(pictures::paths).collect();
+    pictures.extend(pictures::CARDS.map(|(name, _)| format!("{PICTURES}/{name}")));
     let mut files = Vec::new();
     for (folder, extension) in [(FOLDER, "md"), (PICTURES, "png")] {
         for file in repository::files_in(&repository::root().join(folder), extension)? {

@@ -1,9 +1,9 @@
 //! The pictures of blocks: each is a small graph, rendered by `ptc`.
 //!
 //! Every input gets something that shows what the block does: image inputs a colour picture and a
-//! grey one in turn, inputs for normals a normal map, as the tests of all blocks have it too.
-//! Outputs that are no picture are shown by a block that makes one of them. Another block at the
-//! inputs changes all pictures behind it, so they are drawn again on request only.
+//! grey one in turn, as in the tests of all blocks, and inputs for normals a normal map. The noise
+//! behind them has few octaves: it is easier to recognise, and the files are smaller. Outputs that
+//! are no picture are shown by a block that makes one of them.
 
 use std::{fs, path::Path, process::Command};
 
@@ -20,6 +20,14 @@ const SIZE: u32 = 128;
 /// What blocks that read files read, in the folder of the conformance tests.
 const GRAMMAR: &str = "in/tree.txt";
 const PICTURE: &str = "in/colour.png";
+
+/// The pictures that blocks are given, for the index: their names and how they are made.
+pub(super) const CARDS: [Card; 3] = [
+    ("given-colour.png", Sketch::colour),
+    ("given-grey.png", Sketch::grey),
+    ("given-normals.png", Sketch::normals),
+];
+type Card = (&'static str, fn(&mut Sketch) -> usize);
 
 /// The file name of a picture.
 pub(super) fn name(block: &Block, setting: Setting) -> String {
@@ -47,6 +55,13 @@ pub(super) fn draw(ptc: &Path, blocks: &[Block]) -> Result {
             files.push(file);
         }
     }
+    for (name, card) in CARDS {
+        let file = folder.join(name).with_extension("xml");
+        let mut sketch = Sketch::new();
+        let shown = card(&mut sketch);
+        fs::write(&file, sketch.finish(shown))?;
+        files.push(file);
+    }
     let root = repository::root();
     let mut command = Command::new(ptc);
     command.arg("render").args(files).arg("--output");
@@ -57,12 +72,26 @@ pub(super) fn draw(ptc: &Path, blocks: &[Block]) -> Result {
 }
 
 /// A graph file under construction.
-struct Sketch {
+pub(super) struct Sketch {
     text: String,
     blocks: usize,
 }
 
 impl Sketch {
+    fn new() -> Self {
+        Self { text: String::new(), blocks: 0 }
+    }
+
+    /// The file, with the output of a block as its result.
+    fn finish(mut self, shown: usize) -> String {
+        self.add("end", &[Some(shown)], &[]);
+        format!(
+            "<!DOCTYPE ptgraph>\n<texturegraph width=\"{SIZE}\" height=\"{SIZE}\" seed=\"0\" \
+             supersampling=\"1\" version=\"1\" precision=\"float\">\n{}</texturegraph>\n",
+            self.text
+        )
+    }
+
     /// Adds a block with these children, and tells its id.
     fn add(&mut self, block: &str, inputs: &[Option<usize>], parameters: &[String]) -> usize {
         let id = self.blocks;
@@ -81,7 +110,9 @@ impl Sketch {
     }
 
     fn grey(&mut self) -> usize {
-        self.add("perlin noise", &[], &[])
+        let octaves = [("frequency", "4"), ("max iterations", "4")];
+        let parameters = octaves.map(|(name, value)| parameter_of(name, "int", value));
+        self.add("perlin noise", &[], &parameters)
     }
 
     fn gradient(&mut self) -> usize {
@@ -135,7 +166,7 @@ impl Sketch {
 
 /// The graph that shows a block.
 fn graph(block: &Block, setting: Setting) -> Result<String> {
-    let mut sketch = Sketch { text: String::new(), blocks: 0 };
+    let mut sketch = Sketch::new();
     let mut inputs = Vec::new();
     for slot in 0..block.inputs.len() {
         inputs.push(sketch.source(block, slot)?);
@@ -149,12 +180,7 @@ fn graph(block: &Block, setting: Setting) -> Result<String> {
     }
     let id = sketch.add(&block.id, &inputs, &parameters);
     let shown = sketch.shown(block, id)?;
-    sketch.add("end", &[Some(shown)], &[]);
-    Ok(format!(
-        "<!DOCTYPE ptgraph>\n<texturegraph width=\"{SIZE}\" height=\"{SIZE}\" seed=\"0\" \
-         supersampling=\"1\" version=\"1\" precision=\"float\">\n{}</texturegraph>\n",
-        sketch.text
-    ))
+    Ok(sketch.finish(shown))
 }
 
 /// The path of a file of the conformance tests.
