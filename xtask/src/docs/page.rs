@@ -18,7 +18,11 @@ pub(super) fn page(block: &Block, essay: &str) -> Result<String> {
     }
     parts.extend([inputs(block), outputs(block), parameters(block)]);
     parts.push(format!("## In a graph file\n\n```xml\n{}\n```", sample(block)));
-    parts.push(format!("## How it works\n\n{essay}\n\nSource: `{}`", essay::source(block)));
+    let mut source = format!("Source: `{}`.", essay::source(block));
+    if essay.contains("pecification") {
+        source.push_str(" What the specification is, [the list of blocks](index.md) tells.");
+    }
+    parts.push(format!("## How it works\n\n{essay}\n\n{source}"));
     parts.retain(|part| !part.is_empty());
     Ok(parts.iter().map(|part| part.trim_end()).collect::<Vec<_>>().join("\n\n") + "\n")
 }
@@ -140,12 +144,7 @@ fn parameters(block: &Block) -> String {
             meaning(parameter),
         ]
     });
-    let choices = block.parameters.iter().filter(|parameter| !parameter.choices.is_empty());
-    format!(
-        "## Parameters\n\n{}{}",
-        table(titles, rows),
-        choices.map(alternatives).collect::<String>()
-    )
+    format!("## Parameters\n\n{}{}", table(titles, rows), alternatives(block))
 }
 
 fn default(parameter: &Parameter) -> String {
@@ -174,25 +173,36 @@ fn meaning(parameter: &Parameter) -> String {
     }
 }
 
-/// The alternatives of a choice.
-fn alternatives(parameter: &Parameter) -> String {
-    let rows = parameter
-        .choices
-        .iter()
-        .map(|choice| [choice.number.to_string(), escaped(&choice.id), escaped(&choice.doc)]);
-    format!("\n### {}\n\n{}", parameter.id, table(["number", "alternative", "meaning"], rows))
+/// The alternatives of choices; those of several are there once.
+fn alternatives(block: &Block) -> String {
+    let mut tables: Vec<(String, String)> = Vec::new();
+    for parameter in block.parameters.iter().filter(|parameter| !parameter.choices.is_empty()) {
+        let rows = parameter
+            .choices
+            .iter()
+            .map(|choice| [choice.number.to_string(), escaped(&choice.id), escaped(&choice.doc)]);
+        let text = table(["number", "alternative", "meaning"], rows);
+        match tables.iter_mut().find(|(_, known)| *known == text) {
+            Some((ids, _)) => ids.push_str(&format!(", {}", parameter.id)),
+            None => tables.push((parameter.id.clone(), text)),
+        }
+    }
+    tables.iter().map(|(ids, text)| format!("\n### {ids}\n\n{text}")).collect()
 }
 
-/// The block with all of its parameters at their defaults.
+/// The block with what it needs, and with all of its parameters at their defaults.
 fn sample(block: &Block) -> String {
     let mut children = String::new();
-    for slot in 0..block.inputs.len() {
-        children.push_str(&format!("\t<input id=\"{}\" slot=\"{slot}\"/>\n", slot + 1));
+    let needed = block.inputs.iter().enumerate().filter(|(_, input)| !input.is_optional);
+    let mut id = 1;
+    for (slot, _) in needed {
+        children.push_str(&format!("\t<input id=\"{id}\" slot=\"{slot}\"/>\n"));
+        id += 1;
     }
     for parameter in &block.parameters {
         let value = value_in_files(&parameter.default);
         children.push_str(&format!("\t{}\n", pictures::parameter(parameter, &value)));
     }
-    let head = format!("<block type=\"{}\" id=\"{}\"", block.id, block.inputs.len() + 1);
+    let head = format!("<block type=\"{}\" id=\"{id}\"", block.id);
     if children.is_empty() { format!("{head}/>") } else { format!("{head}>\n{children}</block>") }
 }
