@@ -1,5 +1,7 @@
 //! The lists of blocks: `docs/blocks/index.md`, and the part of `docs/SUMMARY.md` behind its
 //! heading "Block reference".
+//!
+//! The list is no README.md: mdBook makes that an index.html, but leaves links to it alone.
 
 use super::{
     markdown::{NOTICE, escaped, table},
@@ -29,7 +31,7 @@ slots 0, 2 and 4, the second at slots 1 and 3, the third where a normal map is w
 ";
 
 /// The index page.
-pub(super) fn index(blocks: &[Block]) -> Result<String> {
+pub(super) fn index(blocks: &[Block]) -> String {
     let mut text = format!("{NOTICE}\n# Blocks\n\n{ABOUT}");
     for (family, blocks) in families(blocks) {
         let rows = blocks.iter().map(|block| [link(block), escaped(&block.summary)]);
@@ -47,7 +49,7 @@ pub(super) fn index(blocks: &[Block]) -> Result<String> {
     text.push_str("\n## Blocks that use the seed\n\n");
     let random = blocks.iter().filter(|block| block.uses_seed).map(link);
     text.push_str(&format!("{}.\n", random.collect::<Vec<_>>().join(", ")));
-    Ok(text)
+    text
 }
 
 fn link(block: &Block) -> String {

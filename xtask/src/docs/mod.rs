@@ -65,9 +65,9 @@ fn generate(blocks: &[Block]) -> Result<BTreeMap<String, String>> {
     let mut files = BTreeMap::new();
     for block in blocks {
         let essay = essay::read(block)?;
-        files.insert(format!("{FOLDER}/{}.md", block.slug()), page::page(block, &essay)?);
+        files.insert(format!("{FOLDER}/{}.md", block.slug()), page::page(block, &essay));
     }
-    files.insert(format!("{FOLDER}/index.md"), index::index(blocks)?);
+    files.insert(format!("{FOLDER}/index.md"), index::index(blocks));
     let summary = fs::read_to_string(repository::root().join(SUMMARY))?.replace("\r\n", "\n");
     files.insert(SUMMARY.to_owned(), index::summary(&summary, blocks)?);
     Ok(files)

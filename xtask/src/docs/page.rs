@@ -7,10 +7,9 @@ use super::{
     registry::{Block, Parameter, ParameterKind, Range, value_in_files},
     settings::{Setting, changes, settings},
 };
-use crate::Result;
 
 /// The page. Its parts are separated by blank lines.
-pub(super) fn page(block: &Block, essay: &str) -> Result<String> {
+pub(super) fn page(block: &Block, essay: &str) -> String {
     let mut parts =
         vec![format!("{NOTICE}\n# {}", block.id), escaped(&block.summary), facts(block)];
     if has_pictures(block) {
@@ -24,7 +23,7 @@ pub(super) fn page(block: &Block, essay: &str) -> Result<String> {
     }
     parts.push(format!("## How it works\n\n{essay}\n\n{source}"));
     parts.retain(|part| !part.is_empty());
-    Ok(parts.iter().map(|part| part.trim_end()).collect::<Vec<_>>().join("\n\n") + "\n")
+    parts.iter().map(|part| part.trim_end()).collect::<Vec<_>>().join("\n\n") + "\n"
 }
 
 /// What holds for the block as a whole.
@@ -141,7 +140,7 @@ fn parameters(block: &Block) -> String {
             range(parameter.hard),
             range(parameter.soft),
             parameter.unit.as_deref().map_or_else(|| "–".to_owned(), escaped),
-            meaning(parameter),
+            escaped(&parameter.doc),
         ]
     });
     format!("## Parameters\n\n{}{}", table(titles, rows), alternatives(block))
@@ -163,14 +162,6 @@ fn range(range: Option<Range>) -> String {
         || "–".into(),
         |range| format!("{} to {}", number(range.min), number(range.max)),
     )
-}
-
-fn meaning(parameter: &Parameter) -> String {
-    let doc = escaped(&parameter.doc);
-    match parameter.file_use.as_deref() {
-        Some("write") => format!("{doc} The file is written."),
-        _ => doc,
-    }
 }
 
 /// The alternatives of choices; those of several are there once.

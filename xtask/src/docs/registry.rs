@@ -61,7 +61,6 @@ pub(super) struct Parameter {
     pub(super) unit: Option<String>,
     #[serde(default)]
     pub(super) choices: Vec<Choice>,
-    pub(super) file_use: Option<String>,
 }
 
 /// What a parameter holds.
