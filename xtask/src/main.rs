@@ -2,14 +2,15 @@
 //!
 //! One file a task: [`mod@test`] is the one command that checks everything, [`dist`] makes the
 //! installable tree, [`header`] writes the C header, [`tidy`] checks the house rules that no
-//! compiler knows, [`mod@format`] lays the sources out, [`guide`] replays CONTRIBUTING.md. Only the
-//! tools that a Rust programmer has anyway are needed; a missing tool is named together with how to
-//! install it.
+//! compiler knows, [`mod@format`] lays the sources out, [`docs`] writes the reference of blocks,
+//! [`guide`] replays CONTRIBUTING.md. Only the tools that a Rust programmer has anyway are needed; a
+//! missing tool is named together with how to install it.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program")]
 
 use std::process::ExitCode;
 
 mod dist;
+mod docs;
 mod format;
 mod guide;
 mod header;
@@ -30,6 +31,8 @@ tasks:
   test --list                         the steps of `test`
   dist [--out DIR] [--debug]          make the installable tree (default: target/dist)
   header [--check]                    write include/ptlib/ptlib.h, or check that it is up to date
+  docs [--check | --pictures]         write the reference of blocks, or check it; --pictures draws
+                                      its pictures too
   format [--check]                    lay out all sources; `cargo fmt` misses the blocks
   tidy [--soft]                       check the house rules; --soft lists what is near a limit
   guide                               replay CONTRIBUTING.md in a scratch copy";
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
         "test" => test::run(rest),
         "dist" => dist::run(rest).map(|()| ExitCode::SUCCESS),
         "header" => header::run(rest).map(|()| ExitCode::SUCCESS),
+        "docs" => docs::run(rest).map(|()| ExitCode::SUCCESS),
         "format" => format::run(rest).map(|()| ExitCode::SUCCESS),
         "tidy" => tidy::run(rest).map(|()| ExitCode::SUCCESS),
         "guide" => guide::run(rest).map(|()| ExitCode::SUCCESS),

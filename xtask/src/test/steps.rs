@@ -2,7 +2,7 @@
 
 use super::c_programs;
 use crate::{
-    Result, dist, format, guide, header,
+    Result, dist, docs, format, guide, header,
     process::{self, cargo, tool},
     repository, tidy,
 };
@@ -28,9 +28,12 @@ pub(super) const STEPS: &[Step] = &[
     }),
     quick("tidy", "house rules: sizes, layers, ids, dependencies", |_| tidy::run(&[])),
     quick("header", "ptlib.h is what the sources give", |_| header::run(&["--check".to_owned()])),
+    quick("reference", "docs/blocks is what the blocks declare, and links lead somewhere", |_| {
+        docs::run(&["--check".to_owned()])
+    }),
     quick("clippy", "no warning of rustc or clippy", clippy),
     quick("tests", "unit tests, laws, conformance, golden images, C ABI", tests),
-    slow("docs", "the documentation has no broken links", &[], docs),
+    slow("docs", "the documentation has no broken links", &[], rustdoc),
     slow("features", "ptlib without its default features", &[], features),
     slow("guide", "CONTRIBUTING.md, replayed", &[], |_| guide::run(&[])),
     slow("dist", "the installable tree", &[], |_| dist::make(&dist::Options::default())),
@@ -74,7 +77,7 @@ fn tests(is_strict: bool) -> Result {
     process::run(&mut cargo)
 }
 
-fn docs(_: bool) -> Result {
+fn rustdoc(_: bool) -> Result {
     let arguments = ["doc", "--locked", "--workspace", "--no-deps", "--document-private-items"];
     process::run(cargo().args(arguments).env("RUSTDOCFLAGS", "-D warnings"))
 }

@@ -21,9 +21,10 @@ params! {
         width "matrix width": int [hard 1..=16 soft 1..=11 unit "px"] = 3;
         /// Rows of the matrix. The pixel itself is at the middle one, or below the middle.
         height "matrix height": int [hard 1..=16 soft 1..=11 unit "px"] = 3;
-        /// The weights row by row from the upper left: decimal numbers with blanks between them,
-        /// at most 255. Missing ones are 0, as are all from the first one that is not a number on.
-        /// Weights that sum to 1 keep the brightness.
+        /// The weights row by row from the upper left: decimal numbers with blanks between them, as
+        /// in `0.1 0.1 0.1 0.1 0.2 0.1 0.1 0.1 0.1` for 3 × 3, at most 255. Missing ones are 0, as
+        /// are all from the first one that is not a number on. Weights that sum to 1 keep the
+        /// brightness.
         weights "matrix data": text = "";
     }
 }

@@ -28,11 +28,11 @@ choice! {
 params! {
     /// Parameters of [`BLOCK`].
     Params {
-        /// The upper side: pairs of numbers, separated by blanks, each a point of the side. The
-        /// first is how far along the side it is, clockwise (0 to 1), the second how far outside
-        /// (-0.5 to 0.5).
+        /// The upper side: pairs of numbers, separated by blanks, each a point of the side, as in
+        /// `0.2 0 0.35 0.3 0.5 0`. The first is how far along the side it is, clockwise (0 to 1),
+        /// the second how far outside (-0.5 to 0.5).
         side_1 "side 1": text = "";
-        /// The right side, as the upper one.
+        /// The right side, as the upper one; as in `0.3 0.2 0.6 -0.2`.
         side_2 "side 2": text = "";
         /// The lower side, as the upper one. Not used if its transformation says what it is.
         side_3 "side 3": text = "";
