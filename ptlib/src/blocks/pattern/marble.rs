@@ -42,6 +42,7 @@ pub static BLOCK: BlockSpec = BlockSpec::point::<Marble>(About {
     inputs: &[input("noise", Kind::Image).optional()],
     outputs: &[output("image", Planes::Grey)],
     uses_seed: true,
+    in_pixels: "what intensity is measured by (500 px), and the blur of its own noise",
     tiling: Tiling::ExceptInEightBit(
         "stripes that follow each other downwards are measured by the width, so they tile only \
          where the height equals it",
