@@ -15,7 +15,8 @@ use std::{
 };
 
 use ptlib::{
-    BlockId, Cancel, ComputeOptions, Engine, EngineOptions, Error, ErrorKind, Graph, Limits, Precision,
+    BlockId, Cancel, ComputeOptions, Engine, EngineOptions, Error, ErrorKind, Graph, Limits,
+    Precision,
     block::BlockSpec,
     params::{FileUse, ParamKind, ParamSpec, ParamValue},
     run::LogLevel,
@@ -101,8 +102,9 @@ fn hard_number(random: &mut Random, min: f64, max: f64) -> f64 {
         1 => max,
         _ => {
             let sign = if random.next() & 1 == 1 { 1.0 } else { -1.0 };
-            let largest = min.abs().max(max.abs()) + 1.0;
-            let value = sign * (largest.powf(random.unit()) - 1.0);
+            let largest = min.abs().max(max.abs());
+            let magnitude = f64::from(1_u32 << (random.next() % 32));
+            let value = sign * largest * random.unit() / magnitude;
             if (min..=max).contains(&value) { value } else { (-value).clamp(min, max) }
         }
     }
@@ -264,7 +266,9 @@ fn nothing_brings_a_block_down() {
         for round in 0..ROUNDS {
             let trial = trial(&engine, spec, round, &grammars, &mut random);
             let (outcome, waited) = compute(&engine, &trial);
-            if let Some(waited) = waited && waited > slowest.0 {
+            if let Some(waited) = waited
+                && waited > slowest.0
+            {
                 slowest = (waited, trial.what.clone());
             }
             match outcome {
@@ -298,7 +302,7 @@ fn trial<'a>(
     let precision = [Precision::Float, Precision::EightBit][round % 2];
     let specimen = Specimen::new(engine, spec, width, height).precision(precision);
     let what = format!("{}, {width} × {height}, {precision:?}", spec.about.id);
-    let supersampling = 1 + u32::from(random.next() % 4 == 0);
+    let supersampling = 1 + u32::from(random.next().is_multiple_of(4));
     let mut trial = Trial { random, specimen, what };
     trial.graph().set_supersampling(supersampling).expect("it is a usual one");
     trial.disturb_inputs(spec, grammars);

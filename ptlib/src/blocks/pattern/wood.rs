@@ -36,7 +36,6 @@ pub static BLOCK: BlockSpec = BlockSpec::point::<Wood>(About {
     inputs: &[input("noise", Kind::Image).optional()],
     outputs: &[output("image", Planes::Grey)],
     uses_seed: true,
-    in_pixels: "the blur of its own noise, which it makes without an input",
     ..About::DEFAULT
 });
 
