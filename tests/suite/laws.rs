@@ -36,17 +36,17 @@ fn bits(value: &Value) -> Vec<u32> {
 }
 
 /// A small generator for the choice of random parameters (Marsaglia, "Xorshift RNGs", 2003).
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn next(&mut self) -> u64 {
+    pub fn next(&mut self) -> u64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
         self.0
     }
 
-    fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
@@ -70,7 +70,7 @@ fn extremes(param: &ParamSpec) -> Vec<ParamValue> {
 }
 
 /// A value from the parameter's soft range; the present one for texts.
-fn random_value(param: &ParamSpec, random: &mut Random) -> Option<ParamValue> {
+pub fn random_value(param: &ParamSpec, random: &mut Random) -> Option<ParamValue> {
     Some(match param.kind {
         ParamKind::Int { soft, .. } => {
             let span = f64::from(soft.max) - f64::from(soft.min) + 1.0;
@@ -91,7 +91,7 @@ fn random_value(param: &ParamSpec, random: &mut Random) -> Option<ParamValue> {
 }
 
 /// Checks that an output is what its declaration says.
-fn check_output(spec: &BlockSpec, value: &Value, what: &str) {
+pub fn check_output(spec: &BlockSpec, value: &Value, what: &str) {
     let port = &spec.about.outputs[0];
     assert_eq!(value.kind(), port.kind, "{}, {what}", spec.about.id);
     let Value::Image(image) = value else { return };

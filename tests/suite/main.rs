@@ -7,6 +7,8 @@ mod examples;
 mod frozen;
 mod golden;
 mod hostile;
+mod hostile_laws;
 mod laws;
 mod picture;
+mod resolution;
 mod specimen;

@@ -14,7 +14,8 @@ const IMAGE: usize = 0;
 params! {
     /// Parameters of [`BLOCK`].
     Params {
-        /// How many particles there are. 0 gives plain black.
+        /// How many particles there are. Their traces are one pixel wide, so larger images need
+        /// more to be as bright. 0 gives plain black.
         particles: int [hard 0..=100000 soft 0..=5000] = 500;
         /// Where they start, from the left edge.
         initial_x "initial x": float [hard 0.0..=1.0 soft 0.0..=1.0 unit "of the width"] = 0.5;
@@ -38,6 +39,7 @@ pub static BLOCK: BlockSpec = BlockSpec::whole::<Particles>(About {
     summary: "Traces of particles that fly apart, steered by the red channel of a picture.",
     inputs: &[input("image", Kind::Image)],
     outputs: &[output("image", Planes::Grey)],
+    in_pixels: "the width of the traces",
     ..About::DEFAULT
 });
 

@@ -58,9 +58,13 @@ impl PointBlock for BumpNoise {
     fn prepare<L: Levels>(params: &Params, cx: &PrepareContext<'_>) -> Result<Self, Error> {
         let mut draws = elias::Draws::from_index(cx.seed32());
         let mut sizes = Vec::new();
-        for radius in radii(params, cx.width) {
+        let shares = std::iter::successors(Some(params.from), |share| Some(share / 2.0));
+        for (radius, share) in radii(params, cx.width).zip(shares) {
             cx.check()?;
-            let count = bumps(params, cx.width, radius);
+            let most = bumps(params, cx.width, radius);
+            // Q: the radius in whole pixels says how many there are. Then other sizes would be
+            // drawn elsewhere at another resolution.
+            let count = if L::EIGHT_BIT { most } else { exact_bumps(params, share).min(most) };
             let drawn = (0..count).map(|_| {
                 let x = draws.next_noise() * f64::from(cx.width);
                 let y = draws.next_noise() * f64::from(cx.height);
@@ -105,9 +109,15 @@ fn radii(params: &Params, width: u32) -> impl Iterator<Item = u32> {
         .take_while(move |radius| f64::from(*radius) >= narrowest)
 }
 
-/// The number of bumps of a radius.
+/// The number of bumps of a radius in pixels.
 fn bumps(params: &Params, width: u32, radius: u32) -> u32 {
     width / radius * params.quantity.unsigned_abs()
+}
+
+/// The number of bumps of a radius that is that share of the width; never more than
+/// [`bumps`] of the radius rounded down.
+fn exact_bumps(params: &Params, share: f64) -> u32 {
+    convert::wrap(convert::truncate64(1.0 / share), u32::MAX) * params.quantity.unsigned_abs()
 }
 
 /// `drawn` by row, and for each row the place of its first one.
@@ -247,6 +257,20 @@ mod tests {
                 assert!(level.abs_diff(expected) <= 1, "{size:?}: {level}, {expected} at {i}");
             }
             trial.assert_same_bits();
+        }
+    }
+
+    #[test]
+    fn in_float_precision_there_are_as_many_at_every_resolution() {
+        let params = Params { from: 0.7, to: 0.001, quantity: 1, alter_amplitude: false };
+        let counts = |width| radii(&params, width).map(move |radius| (radius, width / radius));
+        let shares = std::iter::successors(Some(params.from), |share| Some(share / 2.0));
+        let exact: Vec<_> = shares.map(|share| exact_bumps(&params, share)).take(8).collect();
+        assert_eq!(exact, [1, 2, 5, 11, 22, 45, 91, 182]);
+        // Whole-numbered radii give more the smaller they are: 5 pixels instead of 5.6.
+        assert!(counts(64).eq([(44, 1), (22, 2), (11, 5), (5, 12), (2, 32), (1, 64)]));
+        for width in [1, 7, 64, 1000, 65_536] {
+            assert!(counts(width).zip(&exact).all(|((_, most), exact)| *exact <= most), "{width}");
         }
     }
 

@@ -163,11 +163,11 @@ impl PointBlock for Voronoi {
     }
 }
 
-fn place(params: &Params, wraps: bool, cx: &PrepareContext<'_>) -> Result<Places, Error> {
+fn place(params: &Params, is_exact: bool, cx: &PrepareContext<'_>) -> Result<Places, Error> {
     let count = i64::from(params.count);
     // In this order of operations, which decides on which pixel a length ends.
     let length = convert::truncate64(f64::from(params.width) * 0.01 * f64::from(cx.width));
-    let layout = Layout { width: cx.width, height: cx.height, length, count, wraps };
+    let layout = Layout { width: cx.width, height: cx.height, length, count, is_exact };
     if cx.is_connected(TEXT) {
         let start = Start { x: params.initial_x, y: params.initial_y, angle: params.initial_angle };
         return layout.followed(cx.text(TEXT)?, start, cx);
@@ -204,6 +204,23 @@ mod tests {
 
     fn trial(size: (u32, u32), metric: u32, shows: u32) -> Trial {
         Trial::of(&BLOCK).size(size.0, size.1).choice("metric", metric).choice("type", shows)
+    }
+
+    #[test]
+    fn in_float_precision_points_that_meet_in_a_small_image_move_no_others() {
+        let image = |side| {
+            let trial = trial((side, side), 0, 2).int("number of points", 300);
+            trial.image()
+        };
+        let (small, large) = (image(64), image(256));
+        let places = (0..64).flat_map(|y| (0..64).map(move |x| (x, y)));
+        let same = |(x, y): &(u32, u32)| {
+            let (a, b) = (small.row(0, *y)[*x as usize], large.row(0, 4 * y)[4 * *x as usize]);
+            a == b
+        };
+        let count = places.filter(same).count();
+        // The others are at borders of cells, of which there are many.
+        assert!(count > 64 * 64 / 2, "{count} of {} pixels", 64 * 64);
     }
 
     /// The levels that the specification gives for these points, by looking at all of them.
@@ -268,7 +285,7 @@ mod tests {
             for (count, percent) in [(0, 75), (1, 75), (9, 30), (40, 0), (50, 45), (30, 300)] {
                 let length = convert::truncate64(f64::from(percent) * 0.01 * f64::from(size.0));
                 let (width, height) = size;
-                let layout = Layout { width, height, length, count: count.into(), wraps: false };
+                let layout = Layout { width, height, length, count: count.into(), is_exact: false };
                 let expected = naive(size, &places(&layout, place), metric, shows);
                 let trial = trial(size, metric, shows).choice("point place", place);
                 let trial = trial.int("number of points", count).int("width", percent);

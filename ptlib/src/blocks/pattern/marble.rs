@@ -42,7 +42,8 @@ pub static BLOCK: BlockSpec = BlockSpec::point::<Marble>(About {
     inputs: &[input("noise", Kind::Image).optional()],
     outputs: &[output("image", Planes::Grey)],
     uses_seed: true,
-    in_pixels: "how far noise pushes the stripes, which grows with the width",
+    in_pixels: "how far noise pushes the stripes, which grows with the width; and the blur of its \
+                own noise",
     tiling: Tiling::ExceptInEightBit(
         "stripes that follow each other downwards are measured by the width, so they tile only \
          where the height equals it",

@@ -51,7 +51,7 @@ pub static BLOCK: BlockSpec = BlockSpec::whole::<Substrate>(About {
     tiling: Tiling::ExceptInEightBit(
         "cracks along the left edge may stay black where all others are covered",
     ),
-    in_pixels: "the width of the cracks",
+    in_pixels: "the width of the cracks, and their growth, so that other areas come about",
     ..About::DEFAULT
 });
 

@@ -64,8 +64,10 @@ pub(in crate::blocks::noise) struct Layout {
     pub(in crate::blocks::noise) length: i64,
     /// The number of points that the user gave.
     pub(in crate::blocks::noise) count: i64,
-    /// Whether what lies beyond the image comes back on the other side.
-    pub(in crate::blocks::noise) wraps: bool,
+    /// Whether the places are those of float precision: what lies beyond the image comes back on
+    /// the other side, and nothing but the place itself is rounded to pixels, so that points lie
+    /// alike at every resolution.
+    pub(in crate::blocks::noise) is_exact: bool,
 }
 
 pub(in crate::blocks::noise) type Places = Vec<(i64, i64)>;
@@ -77,7 +79,12 @@ impl Layout {
 
     /// The place of a point of a figure.
     fn place(&self, x: i64, y: i64) -> (i64, i64) {
-        if self.wraps { self.wrapped(x, y) } else { (x, y) }
+        if self.is_exact { self.wrapped(x, y) } else { (x, y) }
+    }
+
+    /// A length that is not negative, in whole pixels.
+    fn whole(&self, length: f64) -> i64 {
+        convert::truncate64(if self.is_exact { length + 0.5 } else { length })
     }
 
     fn middle(&self) -> (i64, i64) {
@@ -89,11 +96,12 @@ impl Layout {
         let count = convert::index(self.count).min(self.width as usize * self.height as usize);
         let mut taken = Taken::new(self.width, self.height, count);
         let mut places = Vec::with_capacity(count);
-        let mut seed = cx.seed32();
+        let mut next_seed = cx.seed32();
         // A hash need not reach every pixel of a small image, so there is an end to trying.
         let mut tries = 16 * count + 4096;
         for i in (0_i32..).take(count) {
             cx.check()?;
+            let mut seed = next_seed;
             loop {
                 let x = elias::noise64(i.wrapping_add(seed.wrapping_mul(2))).abs();
                 let y = elias::noise64(i.wrapping_mul(10).wrapping_add(seed)).abs();
@@ -108,8 +116,10 @@ impl Layout {
                     return Ok(places);
                 }
                 tries -= 1;
-                // The next seed stays for the points that follow (specification, appendix A).
                 seed = seed.wrapping_add(1);
+                // The next seed stays for the points that follow (specification, appendix A). But
+                // whether two points meet depends on the resolution.
+                next_seed = if self.is_exact { next_seed } else { seed };
             }
         }
         Ok(places)
@@ -143,9 +153,14 @@ impl Layout {
             let (quarter, rest) = (4 * i / count, 4 * i % count);
             #[expect(clippy::cast_precision_loss, reason = "lengths and counts below 2⁵³")]
             let (radius, part) = (self.length as f64, rest as f64 / count as f64);
-            let b = (radius * elementary::sin64(part * std::f64::consts::FRAC_PI_2)).trunc();
-            let a = convert::truncate64((radius * radius - b * b).sqrt());
-            let b = convert::truncate64(b);
+            let b = radius * elementary::sin64(part * std::f64::consts::FRAC_PI_2);
+            // Q: the whole-numbered `b` moves `a` by many pixels where the circle is steep.
+            let a = if self.is_exact {
+                radius * elementary::sin64((1.0 - part) * std::f64::consts::FRAC_PI_2)
+            } else {
+                (radius * radius - b.trunc() * b.trunc()).sqrt()
+            };
+            let (a, b) = (self.whole(a), self.whole(b));
             let (across, down) = match quarter {
                 0 => (a, -b),
                 1 => (-b, -a),
@@ -160,8 +175,10 @@ impl Layout {
     /// Along horizontal and vertical arms from the middle.
     pub(in crate::blocks::noise) fn horizontal_cross(&self) -> Places {
         let steps = self.count.max(2) - 1;
+        // Q: whole steps, so that an arm may be shorter by almost as many pixels as it has steps.
         let step = self.length / steps;
-        self.cross(|i| step * i, [(-1, 0), (1, 0), (0, 1), (0, -1)])
+        let along = |i| if self.is_exact { self.length * i / steps } else { step * i };
+        self.cross(along, [(-1, 0), (1, 0), (0, 1), (0, -1)])
     }
 
     /// Along diagonal arms from the middle.
@@ -169,9 +186,13 @@ impl Layout {
         let steps = self.count.max(2) - 1;
         let step = self.length / steps;
         #[expect(clippy::cast_precision_loss, reason = "lengths below 2⁵³")]
-        let step = ((step * step / 2) as f64).sqrt();
+        let step = if self.is_exact {
+            (0.5_f64).sqrt() * self.length as f64 / steps as f64
+        } else {
+            ((step * step / 2) as f64).sqrt()
+        };
         #[expect(clippy::cast_precision_loss, reason = "counts below 2⁵³")]
-        let along = |i: i64| convert::truncate64(step * i as f64);
+        let along = |i: i64| self.whole(step * i as f64);
         self.cross(along, [(-1, -1), (1, 1), (-1, 1), (1, -1)])
     }
 
@@ -232,7 +253,7 @@ fn after_separator(text: &str) -> &str {
 mod tests {
     use super::*;
 
-    const LAYOUT: Layout = Layout { width: 100, height: 60, length: 20, count: 3, wraps: true };
+    const LAYOUT: Layout = Layout { width: 100, height: 60, length: 20, count: 3, is_exact: true };
 
     #[test]
     fn a_square_has_points_on_each_side() {
@@ -248,6 +269,12 @@ mod tests {
         assert_eq!(circle, [(70, 30), (50, 10), (30, 30), (50, 50)]);
         // 60°: b = ⌊20 · sin 60°⌋ = 17, a = ⌊√(20² - 17²)⌋ = 10.
         assert_eq!(Layout { count: 6, ..LAYOUT }.circle()[1], (60, 13));
+        // 67.5°: b = 18.478, a = 7.654; in 8-bit precision ⌊√(20² - 18²)⌋ = 8.
+        assert_eq!(Layout { count: 16, ..LAYOUT }.circle()[3], (58, 12));
+        // 82.5°: b = 19.829, a = 2.611; in 8-bit precision ⌊√(20² - 19²)⌋ = 6.
+        let many = Layout { count: 48, ..LAYOUT };
+        assert_eq!(many.circle()[11], (53, 10));
+        assert_eq!(Layout { is_exact: false, ..many }.circle()[11], (56, 11));
         assert!(Layout { count: 0, ..LAYOUT }.circle().is_empty());
     }
 
@@ -263,10 +290,21 @@ mod tests {
     }
 
     #[test]
+    fn in_float_precision_arms_are_as_long_as_the_user_says() {
+        let exact = Layout { length: 48, count: 15, ..LAYOUT };
+        let whole_steps = Layout { is_exact: false, ..exact };
+        assert_eq!(exact.horizontal_cross()[4 * 14 - 2], (98, 30));
+        assert_eq!(whole_steps.horizontal_cross()[4 * 14 - 2], (92, 30));
+        assert_eq!(exact.diagonal_cross()[4 * 14 - 2], (84, 4));
+        // The step is √⌊3²/2⌋ = 2.
+        assert_eq!(whole_steps.diagonal_cross()[4 * 14 - 2], (78, 58));
+    }
+
+    #[test]
     fn points_beyond_the_edges_come_back_on_the_other_side() {
         let cross = Layout { length: 70, count: 2, ..LAYOUT }.horizontal_cross();
         assert_eq!(cross[1..], [(80, 30), (20, 30), (50, 40), (50, 20)]);
-        let cross = Layout { length: 70, count: 2, wraps: false, ..LAYOUT }.horizontal_cross();
+        let cross = Layout { length: 70, count: 2, is_exact: false, ..LAYOUT }.horizontal_cross();
         assert_eq!(cross[1..], [(-20, 30), (120, 30), (50, 100), (50, -40)]);
     }
 
