@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use super::bump_sizes::{bumps, exact_bumps, radii};
 use crate::block::prelude::*;
 
 params! {
@@ -99,25 +100,6 @@ impl PointBlock for BumpNoise {
         // Twice the middles: as drawn, and by row.
         2 * middles.sum::<u64>() * size_of::<Middle>() as u64 + rows * size_of::<usize>() as u64
     }
-}
-
-/// The radii of the sizes of bumps, in pixels.
-fn radii(params: &Params, width: u32) -> impl Iterator<Item = u32> {
-    let widest = convert::wrap(convert::truncate64(params.from * f64::from(width)), u32::MAX);
-    let narrowest = params.to * f64::from(width);
-    std::iter::successors(Some(widest), |radius| Some(radius / 2))
-        .take_while(move |radius| f64::from(*radius) >= narrowest)
-}
-
-/// The number of bumps of a radius in pixels.
-fn bumps(params: &Params, width: u32, radius: u32) -> u32 {
-    width / radius * params.quantity.unsigned_abs()
-}
-
-/// The number of bumps of a radius that is that share of the width; never more than
-/// [`bumps`] of the radius rounded down.
-fn exact_bumps(params: &Params, share: f64) -> u32 {
-    convert::wrap(convert::truncate64(1.0 / share), u32::MAX) * params.quantity.unsigned_abs()
 }
 
 /// `drawn` by row, and for each row the place of its first one.
