@@ -225,7 +225,12 @@ fn file_name(path: &str) -> Option<&str> {
 }
 
 fn list<'a>(folders: impl Iterator<Item = &'a PathBuf>) -> String {
-    let mut names: Vec<_> = folders.map(|folder| format!("\"{}\"", folder.display())).collect();
+    let name = |folder: &'a PathBuf| {
+        // The folder of a file that was named without one.
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        format!("\"{}\"", folder.display())
+    };
+    let mut names: Vec<_> = folders.map(name).collect();
     names.dedup();
     if names.is_empty() { "no folder".to_owned() } else { names.join(", ") }
 }
@@ -234,6 +239,14 @@ fn list<'a>(folders: impl Iterator<Item = &'a PathBuf>) -> String {
 mod tests {
     use super::*;
     use crate::io::tests::Folder;
+
+    #[test]
+    fn folders_are_listed_by_name() {
+        let listed =
+            |folders: &[&str]| list(folders.iter().map(PathBuf::from).collect::<Vec<_>>().iter());
+        assert_eq!(listed(&[]), "no folder");
+        assert_eq!(listed(&["", "a b"]), "\".\", \"a b\"");
+    }
 
     fn access(folder: &Folder) -> FileAccess {
         FileAccess {
