@@ -10,11 +10,12 @@ use crate::block::prelude::*;
 use ray::{Position, Segment};
 
 /// A pixel of a stamp: the border of the tile.
-pub(super) const BORDER: u8 = 0;
+pub(super) const BORDER: u8 = 2;
 /// What is around the tile.
 const TRANSPARENT: u8 = 1;
-/// What is inside.
-pub(super) const TILE: u8 = 2;
+/// What is inside. 0, because memory of zeros is there at once: painting gigabytes of anything else
+/// could not be cancelled.
+pub(super) const TILE: u8 = 0;
 
 /// A tile to be stamped.
 pub(super) struct Stamp {
