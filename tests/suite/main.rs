@@ -10,5 +10,7 @@ mod hostile;
 mod hostile_laws;
 mod laws;
 mod picture;
+#[cfg(target_os = "linux")]
+mod plugin_abi;
 mod resolution;
 mod specimen;
