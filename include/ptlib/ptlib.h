@@ -535,6 +535,33 @@ typedef struct ptl_image_info {
 /** The file policy forbids it; the message says how to allow it. */
 #define PTL_E_DENIED 17
 
+/** The system cannot load the file of a plug-in: it is no library, or misses another one. */
+#define PTL_E_PLUGIN_LOAD 20
+
+/** The plug-in was built for another version of the plug-in contract. */
+#define PTL_E_PLUGIN_ABI 21
+
+/** Another plug-in has block types of that id. */
+#define PTL_E_PLUGIN_DUPLICATE 22
+
+/** A block of a plug-in panicked or threw an exception. */
+#define PTL_E_PLUGIN_PANIC 23
+
+/** The tables of a Rust plug-in are laid out in another way than here. */
+#define PTL_E_PLUGIN_LAYOUT 24
+
+/** The file is a library, but no plug-in. */
+#define PTL_E_PLUGIN_SYMBOL 25
+
+/** The plug-in could not be initialised. */
+#define PTL_E_PLUGIN_INIT 26
+
+/** The plug-in describes itself wrongly; the message names the field. */
+#define PTL_E_PLUGIN_DESCRIPTOR 27
+
+/** A block of a plug-in says that it failed. */
+#define PTL_E_PLUGIN_FAILED 28
+
 /** A defect of this library or of a block. The program may go on. */
 #define PTL_E_INTERNAL 99
 

@@ -151,6 +151,7 @@ fn output(port: &OutputPort, inputs: &[InputPort]) -> OutputDescription {
     let (planes, of): (_, &[usize]) = match &port.planes {
         Planes::Grey => ("grey", &[]),
         Planes::Colour => ("colour", &[]),
+        Planes::ColourAlpha => ("colour and alpha", &[]),
         Planes::As(input) => ("as inputs", std::slice::from_ref(input)),
         Planes::Most(inputs) => ("as inputs", inputs),
         Planes::ByParameters => ("by parameters", &[]),

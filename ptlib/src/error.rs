@@ -38,6 +38,24 @@ pub enum ErrorKind {
     BufferTooSmall = 16,
     /// The file policy forbids it.
     Denied = 17,
+    /// The system cannot load the file of a plug-in: it is no library, or misses another one.
+    PluginLoad = 20,
+    /// The plug-in was built for another version of the plug-in contract.
+    PluginAbi = 21,
+    /// Another plug-in has block types of that id.
+    PluginDuplicate = 22,
+    /// A block of a plug-in panicked or threw an exception.
+    PluginPanic = 23,
+    /// The tables of a Rust plug-in are laid out in another way than here.
+    PluginLayout = 24,
+    /// The file is a library, but no plug-in.
+    PluginSymbol = 25,
+    /// The plug-in could not be initialised.
+    PluginInit = 26,
+    /// The plug-in describes itself wrongly; the message names the field.
+    PluginDescriptor = 27,
+    /// A block of a plug-in says that it failed.
+    PluginFailed = 28,
     /// A defect of this library or of a block.
     Internal = 99,
 }

@@ -98,6 +98,7 @@ pub fn check_output(spec: &BlockSpec, value: &Value, what: &str) {
     match port.planes {
         Planes::Grey => assert_eq!(image.planes(), 1, "{}", spec.about.id),
         Planes::Colour => assert_eq!(image.planes(), 3, "{}", spec.about.id),
+        Planes::ColourAlpha => assert_eq!(image.planes(), 4, "{}", spec.about.id),
         _ => assert!([1, 3, 4].contains(&image.planes())),
     }
     for channel in 0..image.planes() {

@@ -12,5 +12,7 @@ mod laws;
 mod picture;
 #[cfg(target_os = "linux")]
 mod plugin_abi;
+#[cfg(target_os = "linux")]
+mod plugins;
 mod resolution;
 mod specimen;

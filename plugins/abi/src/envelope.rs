@@ -9,6 +9,8 @@ use abi_stable::{
     sabi_types::{RRef, VersionStrings},
 };
 
+pub use abi_stable::library::{LibraryError, lib_header_from_path};
+
 use crate::ptlp_entry;
 
 /// What a Rust plug-in exports.

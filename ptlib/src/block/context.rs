@@ -46,6 +46,12 @@ pub trait Files: Send + Sync {
     /// # Errors
     /// As [`read`](Self::read), and [`ErrorKind::Parse`] if it is no picture.
     fn read_image(&self, path: &str, pool: &Arc<BufferPool>) -> Result<Image, Error>;
+
+    /// Writes a whole file below a folder that the caller opened for writing.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Denied`] or [`ErrorKind::Io`].
+    fn write(&self, path: &str, bytes: &[u8]) -> Result<(), Error>;
 }
 
 /// Tells the caller how far a computation is, and whether to go on.
@@ -73,6 +79,28 @@ pub trait Progress: Send + Sync {
     fn report(&self, fraction: f64);
 }
 
+/// How much a message matters. The numbers are those of the C ABI.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum LogLevel {
+    /// For people who look for a fault of the engine.
+    Debug = 1,
+    /// Worth knowing.
+    Info = 2,
+    /// Somebody should look at it: a result is not what the graph's author meant.
+    Warning = 3,
+    /// Something failed that no caller waits for.
+    Error = 4,
+}
+
+/// The planes of a block's inputs and outputs.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlaneCounts<'a> {
+    /// For each input; 0 if it is not connected or no image.
+    pub(crate) inputs: &'a [usize],
+    /// For each output; 0 if it is no image.
+    pub(crate) outputs: &'a [usize],
+}
+
 /// What every block may know and ask.
 #[derive(Clone, Copy)]
 pub struct Context<'a> {
@@ -91,7 +119,8 @@ pub struct Context<'a> {
     pub(crate) files: &'a dyn Files,
     pub(crate) progress: &'a dyn Progress,
     pub(crate) limits: &'a Limits,
-    pub(crate) warn: &'a (dyn Fn(Error) + Sync),
+    pub(crate) planes: PlaneCounts<'a>,
+    pub(crate) tell: &'a (dyn Fn(LogLevel, Error) + Sync),
 }
 
 /// What a block of shape Point or Gather prepares itself from.
@@ -200,7 +229,7 @@ impl<'a> Context<'a> {
     /// engine adds which block it is. For few messages: whoever reads a file of a stranger counts
     /// them.
     pub fn warn(&self, what: Error) {
-        (self.warn)(what);
+        (self.tell)(LogLevel::Warning, what);
     }
 
     /// Goes on, or fails with [`ErrorKind::Cancelled`]: see [`Progress::check`].

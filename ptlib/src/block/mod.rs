@@ -23,10 +23,11 @@ pub(crate) mod testing;
 
 pub mod prelude;
 
-pub use context::{Context, Files, PrepareContext, Progress, RowContext, WholeContext};
+pub(crate) use context::PlaneCounts;
+pub use context::{Context, Files, LogLevel, PrepareContext, Progress, RowContext, WholeContext};
 pub use interpolation::Interpolation;
 pub(crate) use registry::nearest;
-pub use registry::{Family, Registry};
+pub use registry::{Family, PluginInfo, Registry};
 pub use row::{InputRows, OutputRow, PortRow};
 pub(crate) use row::{MAX_INPUTS, MAX_OUTPUT_PLANES};
 pub use shapes::{GatherBlock, PointBlock, RowKernel, WholeBlock};

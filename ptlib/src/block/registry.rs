@@ -1,6 +1,9 @@
 //! The registry: every block type that a graph may use.
 
-use std::sync::{Arc, PoisonError, RwLock};
+use std::{
+    path::PathBuf,
+    sync::{Arc, PoisonError, RwLock},
+};
 
 use super::{About, BlockSpec, MAX_INPUTS, MAX_OUTPUT_PLANES, Shape};
 use crate::{
@@ -28,6 +31,36 @@ macro_rules! family {
     };
 }
 
+/// A loaded plug-in.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PluginInfo {
+    /// Its id: the vendor of its blocks, perhaps followed by a point and a word.
+    pub id: String,
+    /// What people call it.
+    pub name: String,
+    /// Who made it.
+    pub vendor: String,
+    /// Its version.
+    pub version: String,
+    /// The SPDX expression of its licence.
+    pub license: String,
+    /// The compiler that built it, if it says so.
+    pub built_with: String,
+    /// Its file; `None` for one that is linked into the program.
+    pub path: Option<PathBuf>,
+}
+
+impl PluginInfo {
+    /// Its file, or where else it is, for messages.
+    #[must_use]
+    pub fn place(&self) -> String {
+        match &self.path {
+            Some(path) => path.display().to_string(),
+            None => format!("plug-in \"{}\", which is linked into the program", self.id),
+        }
+    }
+}
+
 /// Every block type that a graph may use, by id. Types are added, never removed.
 #[derive(Debug, Default)]
 pub struct Registry {
@@ -38,6 +71,7 @@ pub struct Registry {
 struct Entry {
     spec: &'static BlockSpec,
     family: &'static str,
+    plugin: Option<&'static PluginInfo>,
 }
 
 impl Registry {
@@ -57,17 +91,56 @@ impl Registry {
     /// [`ErrorKind::InvalidArgument`] if an id is taken, or a block type has more inputs or outputs
     /// than the engine can serve; then none is added.
     pub fn add(&self, family: &Family) -> Result<(), Error> {
+        let blocks = family.blocks.iter();
+        self.extend(blocks.map(|spec| Entry { spec, family: family.name, plugin: None }).collect())
+    }
+
+    /// Adds the block types of a plug-in, each with the name of its family. Adding the same ones
+    /// again changes nothing.
+    ///
+    /// # Errors
+    /// [`ErrorKind::PluginDuplicate`] if another plug-in, or the library, has a block type of the
+    /// same id, and as [`add`](Self::add); then none is added.
+    pub(crate) fn add_plugin(
+        &self,
+        plugin: &'static PluginInfo,
+        blocks: &[(&'static str, &'static BlockSpec)],
+    ) -> Result<(), Error> {
+        if self.plugins().iter().any(|known| std::ptr::eq(*known, plugin)) {
+            return Ok(());
+        }
+        let blocks = blocks.iter();
+        let entries = blocks.map(|(family, spec)| Entry { spec, family, plugin: Some(plugin) });
+        self.extend(entries.collect())
+    }
+
+    fn extend(&self, new: Vec<Entry>) -> Result<(), Error> {
         let mut entries = self.entries.write().unwrap_or_else(PoisonError::into_inner);
-        for spec in family.blocks {
-            check_ports(spec)?;
-            let id = spec.about.id;
-            if entries.iter().any(|entry| entry.spec.about.id == id) {
-                let message = format!("there is a block type \"{id}\" already");
-                return Err(Error::new(ErrorKind::InvalidArgument, message));
+        for entry in &new {
+            check_ports(entry.spec)?;
+            let id = entry.spec.about.id;
+            if let Some(known) = entries.iter().find(|known| known.spec.about.id == id) {
+                return Err(duplicate(known, entry));
             }
         }
-        entries.extend(family.blocks.iter().map(|spec| Entry { spec, family: family.name }));
+        entries.extend(new);
         Ok(())
+    }
+
+    /// The plug-ins whose block types it has, in the order in which they came.
+    #[must_use]
+    pub fn plugins(&self) -> Vec<&'static PluginInfo> {
+        let entries = self.entries.read().unwrap_or_else(PoisonError::into_inner);
+        let mut plugins: Vec<_> = entries.iter().filter_map(|entry| entry.plugin).collect();
+        plugins.dedup_by(|a, b| std::ptr::eq(*a, *b));
+        plugins
+    }
+
+    /// The plug-in that the block type of that id comes from.
+    #[must_use]
+    pub fn plugin_of(&self, id: &str) -> Option<&'static PluginInfo> {
+        let entries = self.entries.read().unwrap_or_else(PoisonError::into_inner);
+        entries.iter().find(|entry| entry.spec.about.id == id)?.plugin
     }
 
     /// All block types, by family, each family in its order.
@@ -105,6 +178,21 @@ impl Registry {
         let entries = self.entries.read().unwrap_or_else(PoisonError::into_inner);
         entries.iter().find(|entry| entry.spec.about.id == id).map(|entry| entry.family)
     }
+}
+
+/// The error for two block types of one id.
+fn duplicate(known: &Entry, new: &Entry) -> Error {
+    let id = known.spec.about.id;
+    let message = format!("there is a block type \"{id}\" already");
+    let (kind, message) = match (known.plugin, new.plugin) {
+        (_, None) => (ErrorKind::InvalidArgument, message),
+        (None, Some(_)) => (ErrorKind::PluginDuplicate, format!("{message}, built in")),
+        (Some(known), Some(new)) => (
+            ErrorKind::PluginDuplicate,
+            format!("{message}, from {}; {} is not used", known.place(), new.place()),
+        ),
+    };
+    Error::new(kind, message)
 }
 
 /// Whether the engine has room for the inputs and outputs of a block type.

@@ -6,7 +6,7 @@
 
 use std::marker::PhantomData;
 
-use super::{InputRows, OutputRow, PrepareContext, RowContext, WholeContext};
+use super::{InputRows, LogLevel, OutputRow, PrepareContext, RowContext, WholeContext};
 use crate::{
     error::{Error, ErrorKind},
     math::{
@@ -104,7 +104,20 @@ pub trait WholeBlock: 'static {
 /// A prepared block of shape Point or Gather: writes rows.
 pub trait RowKernel: Send + Sync {
     /// Writes all of `out`. Values are as the block made them: neither clamped nor truncated.
-    fn row(&self, cx: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>);
+    ///
+    /// # Errors
+    /// What a block of a plug-in says; the blocks of this library do not fail here.
+    fn row(
+        &self,
+        cx: &RowContext<'_>,
+        inputs: &InputRows<'_>,
+        out: &mut OutputRow<'_>,
+    ) -> Result<(), Error>;
+
+    /// What the block had to say while it wrote rows.
+    fn messages(&self) -> Vec<(LogLevel, Error)> {
+        Vec::new()
+    }
 }
 
 /// How the engine computes a block type.
@@ -207,8 +220,9 @@ macro_rules! row_shape {
                         cx: &RowContext<'_>,
                         inputs: &InputRows<'_>,
                         out: &mut OutputRow<'_>,
-                    ) {
+                    ) -> Result<(), Error> {
                         self.1.run(Row(self, cx, inputs, out));
+                        Ok(())
                     }
                 }
                 fn boxed<B: $block, L: Levels>(

@@ -38,6 +38,8 @@ pub enum Planes {
     Grey,
     /// Three: red, green, blue.
     Colour,
+    /// Four: red, green, blue, alpha.
+    ColourAlpha,
     /// As many as that input has.
     As(usize),
     /// As many as the one of those inputs that has the most.
@@ -53,7 +55,7 @@ impl Planes {
         match self {
             Self::Grey => 1,
             Self::Colour | Self::ByParameters => 3,
-            Self::As(_) | Self::Most(_) => MAX_PLANES,
+            Self::As(_) | Self::Most(_) | Self::ColourAlpha => MAX_PLANES,
         }
     }
 }
@@ -154,9 +156,12 @@ pub enum Role {
 /// What a block type is, apart from its parameters.
 #[derive(Debug, Clone, Copy)]
 pub struct About {
-    /// Its id in files and interfaces: lower-case words separated by single blanks, for ever.
+    /// Its id in files and interfaces: lower-case words separated by single blanks, for ever. That
+    /// of a plug-in's block has the vendor and a point before it.
     pub id: &'static str,
-    /// The version of ptlib, ×1000 + minor, that it came with. (1 is 0.1.)
+    /// What people call it; empty: the words of its id.
+    pub name: &'static str,
+    /// The version of ptlib, ×1000 + minor, that it came with (1 is 0.1); 0 for a plug-in's block.
     pub since: u32,
     /// What it makes, in one sentence.
     pub summary: &'static str,
@@ -179,6 +184,7 @@ impl About {
     /// A block without inputs or outputs; a starting point for `..About::DEFAULT`.
     pub const DEFAULT: Self = Self {
         id: "",
+        name: "",
         since: 1,
         summary: "",
         inputs: &[],
@@ -243,6 +249,17 @@ impl BlockSpec {
             params: <B::Params as ParamSet>::SPECS,
             implementation: Implementation::Whole(&shapes::Whole::<B>::FACTORY),
         }
+    }
+
+    /// What people call it: `Perlin noise`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        if !self.about.name.is_empty() {
+            return self.about.name.to_owned();
+        }
+        let words = self.about.id.rsplit('.').next().unwrap_or_default();
+        let mut rest = words.chars();
+        rest.next().map(|first| first.to_uppercase().chain(rest).collect()).unwrap_or_default()
     }
 
     /// How it computes.

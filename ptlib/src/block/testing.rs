@@ -2,8 +2,10 @@
 
 use std::sync::{Arc, Mutex};
 
-use super::{Access, BlockSpec, Context, Files, Implementation, InputRows, OutputRow, Planes};
-use super::{PortRow, Progress, RowContext, Shape, Store};
+use super::{
+    Access, BlockSpec, Context, Files, Implementation, InputRows, LogLevel, OutputRow, PlaneCounts,
+    Planes, PortRow, Progress, RowContext, Shape, Store,
+};
 use crate::{
     error::{Error, ErrorKind},
     limits::Limits,
@@ -153,20 +155,23 @@ impl Trial {
 
     /// All outputs of the block.
     pub(crate) fn compute(&self) -> Result<Vec<Value>, Error> {
-        self.compute_and_tell(&|_| ())
+        self.compute_and_tell(&|_, _| ())
     }
 
     /// The block's first output, a text, and what the block warned of on the way.
     pub(crate) fn text_and_warnings(&self) -> Result<(String, Vec<String>), Error> {
         let warnings = Mutex::new(Vec::new());
-        let warn = |what: Error| warnings.lock().expect("no panic").push(what.to_string());
-        let value = self.compute_and_tell(&warn)?.swap_remove(0);
+        let tell = |_, what: Error| warnings.lock().expect("no panic").push(what.to_string());
+        let value = self.compute_and_tell(&tell)?.swap_remove(0);
         let Value::Text(text) = value else { panic!("gives a {}", value.kind().name()) };
         Ok((text.to_string(), warnings.into_inner().expect("no panic")))
     }
 
-    fn compute_and_tell(&self, warn: &(dyn Fn(Error) + Sync)) -> Result<Vec<Value>, Error> {
-        let mut values = self.with_context(warn, |cx| match self.spec.implementation {
+    fn compute_and_tell(
+        &self,
+        tell: &(dyn Fn(LogLevel, Error) + Sync),
+    ) -> Result<Vec<Value>, Error> {
+        let mut values = self.with_context(tell, |cx| match self.spec.implementation {
             Implementation::Whole(factory) => factory.compute(&self.values, self.precision, cx),
             Implementation::Rows(_) => Ok(vec![Value::Image(self.rows(cx)?)]),
         })?;
@@ -184,11 +189,17 @@ impl Trial {
     /// Runs something with the context that the block would get.
     pub(crate) fn with_context<T>(
         &self,
-        warn: &(dyn Fn(Error) + Sync),
+        tell: &(dyn Fn(LogLevel, Error) + Sync),
         run: impl FnOnce(&Context<'_>) -> T,
     ) -> T {
         let inputs: Vec<_> = (0..self.inputs.len()).map(|port| self.whole(port)).collect();
         let connected: Vec<_> = self.inputs.iter().map(Option::is_some).collect();
+        let planes = |value: &Option<Value>| match value {
+            Some(Value::Image(image)) => image.planes(),
+            _ => 0,
+        };
+        let input_planes: Vec<_> = self.inputs.iter().map(planes).collect();
+        let output_planes = self.planes().unwrap_or(0);
         run(&Context {
             width: self.width,
             height: self.height,
@@ -200,7 +211,8 @@ impl Trial {
             files: &self.files,
             progress: &Alone,
             limits: &self.limits,
-            warn,
+            planes: PlaneCounts { inputs: &input_planes, outputs: &[output_planes] },
+            tell,
         })
     }
 
@@ -234,7 +246,7 @@ impl Trial {
                 let (width, height) = (self.width, self.height);
                 let place = RowContext { x, y, width, height, progress: &Alone };
                 let mut out = OutputRow::new(out, &stores);
-                kernel.row(&place, &InputRows::new(&ports), &mut out);
+                kernel.row(&place, &InputRows::new(&ports), &mut out).expect("rows do not fail");
                 out.finish(self.simd);
             }
         }
@@ -258,6 +270,7 @@ impl Trial {
         Ok(match self.spec.about.outputs[0].planes {
             Planes::Grey => 1,
             Planes::Colour => 3,
+            Planes::ColourAlpha => 4,
             Planes::As(port) => of(&port),
             Planes::Most(ports) => ports.iter().map(of).max().unwrap_or(1).min(MAX_PLANES),
             Planes::ByParameters => {
@@ -296,6 +309,10 @@ impl Files for OneFile {
 
     fn read_image(&self, path: &str, _: &Arc<BufferPool>) -> Result<Image, Error> {
         Err(Error::new(ErrorKind::Denied, format!("a trial reads no file, not \"{path}\"")))
+    }
+
+    fn write(&self, path: &str, _: &[u8]) -> Result<(), Error> {
+        Err(Error::new(ErrorKind::Denied, format!("a trial writes no file, not \"{path}\"")))
     }
 }
 

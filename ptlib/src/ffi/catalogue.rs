@@ -92,7 +92,7 @@ impl BlockTypeObject {
         Self {
             spec,
             id: c_string(spec.about.id),
-            name: c_string(&capitalised(spec.about.id)),
+            name: c_string(&spec.name()),
             category: c_string(category),
             doc: c_string(spec.about.summary),
             params: spec.params.iter().map(ParamTexts::of).collect(),
@@ -219,7 +219,8 @@ impl PortTexts {
             channels: match port.planes {
                 Planes::Grey => 1,
                 Planes::Colour => 3,
-                _ => 0,
+                Planes::ColourAlpha => 4,
+                Planes::As(_) | Planes::Most(_) | Planes::ByParameters => 0,
             },
             id: c_string(port.id),
             name: c_string(&capitalised(port.id)),

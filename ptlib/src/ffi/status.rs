@@ -44,6 +44,24 @@ pub const PTL_E_LIMIT: ptl_status = 15;
 pub const PTL_E_BUFFER_TOO_SMALL: ptl_status = 16;
 /// The file policy forbids it; the message says how to allow it.
 pub const PTL_E_DENIED: ptl_status = 17;
+/// The system cannot load the file of a plug-in: it is no library, or misses another one.
+pub const PTL_E_PLUGIN_LOAD: ptl_status = 20;
+/// The plug-in was built for another version of the plug-in contract.
+pub const PTL_E_PLUGIN_ABI: ptl_status = 21;
+/// Another plug-in has block types of that id.
+pub const PTL_E_PLUGIN_DUPLICATE: ptl_status = 22;
+/// A block of a plug-in panicked or threw an exception.
+pub const PTL_E_PLUGIN_PANIC: ptl_status = 23;
+/// The tables of a Rust plug-in are laid out in another way than here.
+pub const PTL_E_PLUGIN_LAYOUT: ptl_status = 24;
+/// The file is a library, but no plug-in.
+pub const PTL_E_PLUGIN_SYMBOL: ptl_status = 25;
+/// The plug-in could not be initialised.
+pub const PTL_E_PLUGIN_INIT: ptl_status = 26;
+/// The plug-in describes itself wrongly; the message names the field.
+pub const PTL_E_PLUGIN_DESCRIPTOR: ptl_status = 27;
+/// A block of a plug-in says that it failed.
+pub const PTL_E_PLUGIN_FAILED: ptl_status = 28;
 /// A defect of this library or of a block. The program may go on.
 pub const PTL_E_INTERNAL: ptl_status = 99;
 
@@ -78,6 +96,15 @@ pub extern "C" fn ptl_status_name(status: ptl_status) -> *const c_char {
         PTL_E_LIMIT => c"PTL_E_LIMIT",
         PTL_E_BUFFER_TOO_SMALL => c"PTL_E_BUFFER_TOO_SMALL",
         PTL_E_DENIED => c"PTL_E_DENIED",
+        PTL_E_PLUGIN_LOAD => c"PTL_E_PLUGIN_LOAD",
+        PTL_E_PLUGIN_ABI => c"PTL_E_PLUGIN_ABI",
+        PTL_E_PLUGIN_DUPLICATE => c"PTL_E_PLUGIN_DUPLICATE",
+        PTL_E_PLUGIN_PANIC => c"PTL_E_PLUGIN_PANIC",
+        PTL_E_PLUGIN_LAYOUT => c"PTL_E_PLUGIN_LAYOUT",
+        PTL_E_PLUGIN_SYMBOL => c"PTL_E_PLUGIN_SYMBOL",
+        PTL_E_PLUGIN_INIT => c"PTL_E_PLUGIN_INIT",
+        PTL_E_PLUGIN_DESCRIPTOR => c"PTL_E_PLUGIN_DESCRIPTOR",
+        PTL_E_PLUGIN_FAILED => c"PTL_E_PLUGIN_FAILED",
         PTL_E_INTERNAL => c"PTL_E_INTERNAL",
         _ => c"unknown status",
     };
@@ -107,6 +134,15 @@ mod tests {
             (ErrorKind::Limit, PTL_E_LIMIT),
             (ErrorKind::BufferTooSmall, PTL_E_BUFFER_TOO_SMALL),
             (ErrorKind::Denied, PTL_E_DENIED),
+            (ErrorKind::PluginLoad, PTL_E_PLUGIN_LOAD),
+            (ErrorKind::PluginAbi, PTL_E_PLUGIN_ABI),
+            (ErrorKind::PluginDuplicate, PTL_E_PLUGIN_DUPLICATE),
+            (ErrorKind::PluginPanic, PTL_E_PLUGIN_PANIC),
+            (ErrorKind::PluginLayout, PTL_E_PLUGIN_LAYOUT),
+            (ErrorKind::PluginSymbol, PTL_E_PLUGIN_SYMBOL),
+            (ErrorKind::PluginInit, PTL_E_PLUGIN_INIT),
+            (ErrorKind::PluginDescriptor, PTL_E_PLUGIN_DESCRIPTOR),
+            (ErrorKind::PluginFailed, PTL_E_PLUGIN_FAILED),
             (ErrorKind::Internal, PTL_E_INTERNAL),
         ];
         for (kind, status) in pairs {

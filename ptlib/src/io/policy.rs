@@ -146,6 +146,11 @@ impl Files for FileAccess {
     fn read_image(&self, path: &str, pool: &Arc<BufferPool>) -> Result<Image, Error> {
         self.decode(path, &self.read(path)?, pool)
     }
+
+    fn write(&self, path: &str, bytes: &[u8]) -> Result<(), Error> {
+        let path = self.resolve_write(path)?;
+        fs::write(&path, bytes).map_err(|error| io_error(&path, &error))
+    }
 }
 
 /// The bytes of a regular file of at most `limit` bytes.

@@ -8,6 +8,20 @@
     reason = "truncating is what these functions are for; Rust's casts saturate"
 )]
 
+/// A count that is far below 2³²: of channels, of pixels in a row, of bytes of a struct.
+#[inline(always)]
+#[must_use]
+pub const fn count(number: usize) -> u32 {
+    number as u32
+}
+
+/// The lower and the upper half of `number`.
+#[inline(always)]
+#[must_use]
+pub fn words(number: u64) -> [u32; 2] {
+    [number as u32, (number >> 32) as u32]
+}
+
 /// The integer part of `value`.
 #[inline(always)]
 #[must_use]

@@ -154,6 +154,60 @@ pub fn power64(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
+/// Angle in radians whose sine is `x`, -π/2..π/2.
+#[must_use]
+pub fn asin64(x: f64) -> f64 {
+    libm::asin(x)
+}
+
+/// Angle in radians whose cosine is `x`, 0..π.
+#[must_use]
+pub fn acos64(x: f64) -> f64 {
+    libm::acos(x)
+}
+
+/// Angle in radians whose tangent is `x`, -π/2..π/2.
+#[must_use]
+pub fn atan64(x: f64) -> f64 {
+    libm::atan(x)
+}
+
+/// e to the power `x`.
+#[must_use]
+pub fn exp64(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// 2 to the power `x`.
+#[must_use]
+pub fn exp2_64(x: f64) -> f64 {
+    libm::exp2(x)
+}
+
+/// Natural logarithm of `x`.
+#[must_use]
+pub fn log64(x: f64) -> f64 {
+    libm::log(x)
+}
+
+/// Logarithm of `x` to the base 2.
+#[must_use]
+pub fn log2_64(x: f64) -> f64 {
+    libm::log2(x)
+}
+
+/// Hyperbolic tangent of `x`.
+#[must_use]
+pub fn tanh64(x: f64) -> f64 {
+    libm::tanh(x)
+}
+
+/// Cube root of `x`.
+#[must_use]
+pub fn cbrt64(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

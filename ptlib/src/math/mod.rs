@@ -10,6 +10,7 @@ pub mod convert;
 pub mod decimal;
 pub mod elementary;
 pub mod elias;
+pub mod hash;
 pub mod levels;
 pub mod ray;
 pub mod simd;

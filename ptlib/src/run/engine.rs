@@ -73,6 +73,11 @@ impl Engine {
         self.0.log.set(log);
     }
 
+    /// Logs a message.
+    pub(crate) fn tell(&self, level: LogLevel, message: &str) {
+        self.0.log.tell(level, message);
+    }
+
     /// An empty graph.
     #[must_use]
     pub fn new_graph(&self) -> Graph {

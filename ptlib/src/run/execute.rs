@@ -18,7 +18,7 @@ use super::{
     sink::Sink,
 };
 use crate::{
-    block::{Access, Context, Files, Progress, RowKernel, Store},
+    block::{Access, Context, Files, PlaneCounts, Progress, RowKernel, Store},
     error::{Error, ErrorKind},
     limits::Limits,
     math::{levels::Precision, simd::SimdLevel},
@@ -53,6 +53,10 @@ struct Inputs {
     values: Vec<Option<Value>>,
     /// For each input, whether there is a value or a row at a time.
     connected: Vec<bool>,
+    /// For each input, the planes of its image.
+    planes: Vec<usize>,
+    /// For each output, the planes of its image.
+    output_planes: Vec<usize>,
 }
 
 /// The values of all nodes while a plan is carried out, and what went wrong on the way.
@@ -123,7 +127,7 @@ impl<'a, 'g> Execution<'a, 'g> {
         &'b self,
         node: &Node<'_>,
         inputs: &'b Inputs,
-        warn: &'b (dyn Fn(Error) + Sync),
+        tell: &'b (dyn Fn(LogLevel, Error) + Sync),
     ) -> Context<'b> {
         let (width, height) = self.plan.sizes.working();
         Context {
@@ -137,7 +141,8 @@ impl<'a, 'g> Execution<'a, 'g> {
             files: self.means.files,
             progress: self.means.monitor,
             limits: self.means.limits,
-            warn,
+            planes: PlaneCounts { inputs: &inputs.planes, outputs: &inputs.output_planes },
+            tell,
         }
     }
 
@@ -148,15 +153,23 @@ impl<'a, 'g> Execution<'a, 'g> {
         let connected = node.inputs.iter().zip(&values).enumerate().map(|(port, (link, value))| {
             value.is_some() || (link.is_some() && comes_in_rows(port))
         });
-        Inputs { connected: connected.collect(), values }
+        let planes = |link: &Option<super::nodes::Link>| {
+            link.map_or(0, |link| self.plan.nodes[link.node].outputs[link.output].planes)
+        };
+        Inputs {
+            connected: connected.collect(),
+            planes: node.inputs.iter().map(planes).collect(),
+            output_planes: node.outputs.iter().map(|output| output.planes).collect(),
+            values,
+        }
     }
 
     fn compute_whole(&mut self, stage: &Stage) -> Result<(), Error> {
         let node = &self.plan.nodes[stage.root];
         let Work::Whole(factory) = node.work else { return Ok(()) };
         let inputs = self.inputs(node);
-        let warn = |what| self.warn(node, what);
-        let cx = self.context(node, &inputs, &warn);
+        let tell = |level, what| self.tell(node, level, what);
+        let cx = self.context(node, &inputs, &tell);
         let computed = guard(|| factory.compute(node.block.values(), self.means.precision, &cx));
         drop(inputs);
         match computed.and_then(|values| self.check_outputs(node, values)) {
@@ -188,13 +201,13 @@ impl<'a, 'g> Execution<'a, 'g> {
     fn tell_strange(&self, node: &Node<'_>, count: u64) {
         if count > 0 {
             let message = format!("gave {count} numbers that are not finite; they became 0");
-            self.warn(node, Error::new(ErrorKind::Internal, message));
+            self.tell(node, LogLevel::Warning, Error::new(ErrorKind::Internal, message));
         }
     }
 
     /// Logs what somebody should know of a block.
-    fn warn(&self, node: &Node<'_>, what: Error) {
-        self.means.log.tell(LogLevel::Warning, &node.at(what).to_string());
+    fn tell(&self, node: &Node<'_>, level: LogLevel, what: Error) {
+        self.means.log.tell(level, &node.at(what).to_string());
     }
 
     /// White images and empty texts in place of the outputs of a block that failed (specification
@@ -280,9 +293,41 @@ impl<'a, 'g> Execution<'a, 'g> {
                 stored.push(Image::new(self.means.pool, width, height, output.planes)?);
             }
         }
-        let rows = StageRows {
-            members: &members,
-            sets: rows::BufferSets::new(&members),
+        let strange = loop {
+            let done = self.stage_rows(stage, &members).run(self.means, &mut stored, sinks);
+            match done {
+                Ok(strange) => break strange,
+                Err((Some(member), error)) => {
+                    // With a white image in its place, all rows are made anew.
+                    self.fail(&self.plan.nodes[stage.members[member]], error)?;
+                    members[member].kernel = Box::new(White);
+                }
+                Err((None, error)) => return Err(error),
+            }
+        };
+        // A row may have been left half written because of a request that came after the last
+        // check.
+        self.means.monitor.check()?;
+        for (member, (number, count)) in members.iter().zip(stage.members.iter().zip(strange)) {
+            let node = &self.plan.nodes[*number];
+            for (level, what) in member.kernel.messages() {
+                self.tell(node, level, what);
+            }
+            self.tell_strange(node, count);
+        }
+        if is_stored {
+            self.values[stage.root] =
+                stored.into_iter().map(|image| Some(Value::Image(image))).collect();
+        }
+        Ok(())
+    }
+
+    /// A stage, ready to run.
+    fn stage_rows<'b>(&'b self, stage: &Stage, members: &'b [Member]) -> StageRows<'b> {
+        let root = &self.plan.nodes[stage.root];
+        StageRows {
+            members,
+            sets: rows::BufferSets::new(members),
             given: match (members.is_empty(), stage.handed_over.first()) {
                 (true, Some(place)) => self.value(stage.root, self.plan.wanted[*place].output),
                 _ => None,
@@ -298,24 +343,7 @@ impl<'a, 'g> Execution<'a, 'g> {
                 .collect(),
             sizes: self.plan.sizes,
             units: stage.units,
-        };
-        let strange = rows.run(self.means, &mut stored, sinks);
-        let strange = strange.map_err(|(member, error)| match member {
-            Some(member) => self.plan.nodes[stage.members[member]].at(error),
-            None => error,
-        })?;
-        // A row may have been left half written because of a request that came after the last
-        // check.
-        self.means.monitor.check()?;
-        drop(members);
-        for (member, count) in stage.members.iter().zip(strange) {
-            self.tell_strange(&self.plan.nodes[*member], count);
         }
-        if is_stored {
-            self.values[stage.root] =
-                stored.into_iter().map(|image| Some(Value::Image(image))).collect();
-        }
-        Ok(())
     }
 
     /// Prepares a node for the stage that it is fused into.
@@ -362,8 +390,8 @@ impl<'a, 'g> Execution<'a, 'g> {
         match node.work {
             Work::Rows(factory) => {
                 let inputs = self.inputs(node);
-                let warn = |what| self.warn(node, what);
-                let cx = self.context(node, &inputs, &warn);
+                let tell = |level, what| self.tell(node, level, what);
+                let cx = self.context(node, &inputs, &tell);
                 guard(|| factory.prepare(node.block.values(), self.means.precision, &cx))
             }
             _ => Ok(Box::new(White)),
@@ -393,7 +421,8 @@ impl RowKernel for White {
         _: &crate::block::RowContext<'_>,
         _: &crate::block::InputRows<'_>,
         out: &mut crate::block::OutputRow<'_>,
-    ) {
+    ) -> Result<(), Error> {
         out.iter_mut().for_each(|plane| plane.fill(1.0));
+        Ok(())
     }
 }

@@ -44,4 +44,8 @@ impl Files for GraphFiles {
     fn read_image(&self, path: &str, pool: &Arc<BufferPool>) -> Result<Image, Error> {
         self.access.decode(path, &self.read(path)?, pool)
     }
+
+    fn write(&self, path: &str, bytes: &[u8]) -> Result<(), Error> {
+        self.access.write(path, bytes)
+    }
 }

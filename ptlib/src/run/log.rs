@@ -5,18 +5,7 @@ use std::{
     sync::{Arc, PoisonError, RwLock},
 };
 
-/// How much a message matters. The numbers are those of the C ABI.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum LogLevel {
-    /// For people who look for a fault of the engine.
-    Debug = 1,
-    /// Worth knowing.
-    Info = 2,
-    /// Somebody should look at it: a result is not what the graph's author meant.
-    Warning = 3,
-    /// Something failed that no caller waits for.
-    Error = 4,
-}
+pub use crate::block::LogLevel;
 
 /// Takes messages; called on any thread.
 pub type LogFn = dyn Fn(LogLevel, &str) + Send + Sync;

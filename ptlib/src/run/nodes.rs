@@ -235,6 +235,7 @@ fn count_planes(rule: Planes, inputs: &[usize], is_grey: bool) -> usize {
         Planes::Most(ports) => ports.iter().map(|port| at(*port)).max().unwrap_or(0),
         Planes::ByParameters if is_grey => 1,
         Planes::Colour | Planes::ByParameters => 3,
+        Planes::ColourAlpha => 4,
     };
     planes.max(1)
 }

@@ -196,7 +196,7 @@ impl StageRows<'_> {
                     let is_root = number + 1 == self.members.len();
                     let target = (is_root && !strip.stored.is_empty())
                         .then_some((strip.stored.as_mut_slice(), offset));
-                    let count = self.run_member(means.simd, number, &segment, buffers, target);
+                    let count = self.run_member(means.simd, number, &segment, buffers, target)?;
                     if count > 0 {
                         strange.fetch_add(count, Ordering::Relaxed);
                     }
@@ -218,7 +218,7 @@ impl StageRows<'_> {
         segment: &Segment<'_>,
         buffers: &mut Buffers,
         target: Option<(&mut [&mut [f32]], usize)>,
-    ) -> u64 {
+    ) -> Result<u64, Error> {
         let member = &self.members[number];
         let set = self.sets.of_member[number];
         let mut own = std::mem::take(&mut buffers.sets[set]);
@@ -234,12 +234,12 @@ impl StageRows<'_> {
             }
         };
         // Most blocks have few inputs, and room for many costs time in each segment.
-        if member.sources.len() <= FEW_PORTS {
-            self.write::<FEW_PORTS>(member, segment, buffers, &mut out);
+        let written = if member.sources.len() <= FEW_PORTS {
+            self.write::<FEW_PORTS>(member, segment, buffers, &mut out)
         } else {
-            self.write::<MAX_INPUTS>(member, segment, buffers, &mut out);
-        }
-        let strange = out.finish(simd);
+            self.write::<MAX_INPUTS>(member, segment, buffers, &mut out)
+        };
+        let strange = written.map(|()| out.finish(simd));
         buffers.sets[set] = own;
         strange
     }
@@ -251,7 +251,7 @@ impl StageRows<'_> {
         segment: &Segment<'_>,
         buffers: &Buffers,
         out: &mut OutputRow<'_>,
-    ) {
+    ) -> Result<(), Error> {
         let (cx, len) = (&segment.cx, segment.len);
         let mut ports = [PortRow::default(); PORTS];
         for (port, source) in ports.iter_mut().zip(&member.sources) {
@@ -268,7 +268,7 @@ impl StageRows<'_> {
                 ),
             };
         }
-        member.kernel.row(cx, &InputRows::new(&ports[..member.sources.len().min(PORTS)]), out);
+        member.kernel.row(cx, &InputRows::new(&ports[..member.sources.len().min(PORTS)]), out)
     }
 
     /// Gives row `row` of the strip to its sinks.
@@ -367,7 +367,14 @@ mod tests {
     struct Nothing;
 
     impl RowKernel for Nothing {
-        fn row(&self, _: &RowContext<'_>, _: &InputRows<'_>, _: &mut OutputRow<'_>) {}
+        fn row(
+            &self,
+            _: &RowContext<'_>,
+            _: &InputRows<'_>,
+            _: &mut OutputRow<'_>,
+        ) -> Result<(), Error> {
+            Ok(())
+        }
     }
 
     fn member(planes: usize, reads: &[usize]) -> Member {

@@ -204,7 +204,7 @@ mod tests {
             let trial = perlin(frequency, size);
             let levels = trial.levels(0);
             let slope = elementary::tan64(intensity * FRAC_PI_4);
-            let found = trial.with_context(&|_| (), |cx| steering::<EightBit>(intensity, cx));
+            let found = trial.with_context(&|_, _| (), |cx| steering::<EightBit>(intensity, cx));
             for (found, level) in found.unwrap().iter().zip(levels) {
                 let expected = contrasted::<Continuous>(f32::from(level), slope);
                 // A lost level in each of up to five octaves, and one in the contrast.
@@ -218,13 +218,13 @@ mod tests {
     fn real_numbers_lose_nothing() {
         let trial = perlin(9, (40, 40));
         let slope = elementary::tan64(0.5 * FRAC_PI_4);
-        let found = trial.with_context(&|_| (), |cx| steering::<Continuous>(0.5, cx)).unwrap();
+        let found = trial.with_context(&|_, _| (), |cx| steering::<Continuous>(0.5, cx)).unwrap();
         for (found, value) in found.iter().zip(trial.image().channel(0)) {
             assert_eq!(*found, contrasted::<Continuous>(*value * 255.0, slope));
         }
-        let flat = trial.with_context(&|_| (), |cx| steering::<Continuous>(0.0, cx)).unwrap();
+        let flat = trial.with_context(&|_, _| (), |cx| steering::<Continuous>(0.0, cx)).unwrap();
         assert!(flat.iter().all(|value| *value == 0.5));
-        let flat = trial.with_context(&|_| (), |cx| steering::<EightBit>(0.0, cx)).unwrap();
+        let flat = trial.with_context(&|_, _| (), |cx| steering::<EightBit>(0.0, cx)).unwrap();
         assert!(flat.iter().all(|value| *value == 127.0 / 255.0));
     }
 }
