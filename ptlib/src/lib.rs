@@ -5,8 +5,8 @@
 //! threads, with a cache, and with the same bits on every machine.
 //!
 //! The layers, each seeing only those before it: [`math`] → [`value`] → [`mod@params`] → [`block`]
-//! → `blocks`; [`graph`] → [`run`]; `io`; [`plugin`]; [`ffi`] (the C ABI, on the public interface of this crate
-//! only). `ARCHITECTURE.md` in the repository is the map.
+//! → `blocks`; [`graph`] → [`run`]; `io`; [`plugin`]; [`ffi`] (the C ABI, on the public interface
+//! of this crate only). `ARCHITECTURE.md` in the repository is the map.
 
 pub mod block;
 mod blocks;

@@ -36,16 +36,23 @@ pub(super) unsafe trait Table: Sized {
     const NAME: &'static str;
 }
 
-macro_rules! tables {
-    ($($name:ident),+) => {$(
-        // SAFETY: see `ptlib_plugin_abi`; function pointers are `Option`s, of which NULL is one,
-        // and what else is in them is the contract's promise.
-        unsafe impl Table for $name {
-            const NAME: &'static str = stringify!($name);
-        }
-    )+};
+// SAFETY: see `ptlib_plugin_abi`; function pointers are `Option`s, of which NULL is one, and what
+// else is in them is the contract's promise.
+unsafe impl Table for ptlp_entry {
+    const NAME: &'static str = "ptlp_entry";
 }
-tables!(ptlp_entry, ptlp_block, ptlp_port, ptlp_param);
+// SAFETY: as above.
+unsafe impl Table for ptlp_block {
+    const NAME: &'static str = "ptlp_block";
+}
+// SAFETY: as above.
+unsafe impl Table for ptlp_port {
+    const NAME: &'static str = "ptlp_port";
+}
+// SAFETY: as above.
+unsafe impl Table for ptlp_param {
+    const NAME: &'static str = "ptlp_param";
+}
 
 /// Where in the tables the reader is, for messages.
 #[derive(Debug, Clone)]

@@ -70,32 +70,6 @@ static FILE: ptlp_file = ptlp_file {
     write: Some(file_write),
 };
 
-/// The functions of a table of numbers, each as C calls it.
-macro_rules! functions {
-    ($($name:ident($($x:ident),+) => $function:path;)+) => {$(
-        unsafe extern "C" fn $name($($x: f64),+) -> f64 {
-            $function($($x),+)
-        }
-    )+};
-}
-
-functions! {
-    math_sin(x) => elementary::sin64;
-    math_cos(x) => elementary::cos64;
-    math_tan(x) => elementary::tan64;
-    math_asin(x) => elementary::asin64;
-    math_acos(x) => elementary::acos64;
-    math_atan(x) => elementary::atan64;
-    math_atan2(y, x) => elementary::atan2_64;
-    math_exp(x) => elementary::exp64;
-    math_exp2(x) => elementary::exp2_64;
-    math_log(x) => elementary::log64;
-    math_log2(x) => elementary::log2_64;
-    math_pow(x, y) => elementary::power64;
-    math_tanh(x) => elementary::tanh64;
-    math_cbrt(x) => elementary::cbrt64;
-}
-
 static MATH: ptlp_math = ptlp_math {
     struct_size: count(size_of::<ptlp_math>()),
     reserved0: 0,
@@ -114,6 +88,62 @@ static MATH: ptlp_math = ptlp_math {
     tanh: Some(math_tanh),
     cbrt: Some(math_cbrt),
 };
+
+unsafe extern "C" fn math_sin(x: f64) -> f64 {
+    elementary::sin64(x)
+}
+
+unsafe extern "C" fn math_cos(x: f64) -> f64 {
+    elementary::cos64(x)
+}
+
+unsafe extern "C" fn math_tan(x: f64) -> f64 {
+    elementary::tan64(x)
+}
+
+unsafe extern "C" fn math_asin(x: f64) -> f64 {
+    elementary::asin64(x)
+}
+
+unsafe extern "C" fn math_acos(x: f64) -> f64 {
+    elementary::acos64(x)
+}
+
+unsafe extern "C" fn math_atan(x: f64) -> f64 {
+    elementary::atan64(x)
+}
+
+unsafe extern "C" fn math_atan2(y: f64, x: f64) -> f64 {
+    elementary::atan2_64(y, x)
+}
+
+unsafe extern "C" fn math_exp(x: f64) -> f64 {
+    elementary::exp64(x)
+}
+
+unsafe extern "C" fn math_exp2(x: f64) -> f64 {
+    elementary::exp2_64(x)
+}
+
+unsafe extern "C" fn math_log(x: f64) -> f64 {
+    elementary::log64(x)
+}
+
+unsafe extern "C" fn math_log2(x: f64) -> f64 {
+    elementary::log2_64(x)
+}
+
+unsafe extern "C" fn math_pow(x: f64, y: f64) -> f64 {
+    elementary::power64(x, y)
+}
+
+unsafe extern "C" fn math_tanh(x: f64) -> f64 {
+    elementary::tanh64(x)
+}
+
+unsafe extern "C" fn math_cbrt(x: f64) -> f64 {
+    elementary::cbrt64(x)
+}
 
 thread_local! {
     /// What a plug-in said outside of a call, while this thread loads it.
