@@ -69,6 +69,9 @@
 extern "C" {
 #endif
 
+/* A plug-in that is linked into the program: see ptlib_plugin.h. */
+struct ptlp_entry;
+
 
 /** The graph's precision: in compute options. */
 #define PTL_PRECISION_DEFAULT 0
@@ -180,6 +183,9 @@ extern "C" {
 
 /** For ptl_abi_sizeof(): ptl_fault. */
 #define PTL_STRUCT_FAULT 8
+
+/** For ptl_abi_sizeof(): ptl_scan_report. */
+#define PTL_STRUCT_SCAN_REPORT 9
 
 /**
  * The version of the header's functions and structs. A library serves every program that was
@@ -307,6 +313,35 @@ typedef void (PTL_CALL *ptl_log_fn)(int32_t level, const char *message, void *us
 
 /** Called when the library needs `user_data` no longer. */
 typedef void (PTL_CALL *ptl_free_fn)(void *user_data);
+
+/** What became of a file in which ptl_engine_scan_plugins() looked for a plug-in. */
+typedef struct ptl_scan_report {
+    /** Size of this struct in bytes. */
+    uint32_t struct_size;
+    /** PTL_OK if its block types can be used now; else why not. */
+    ptl_status status;
+    /** The file, or a folder that cannot be read. */
+    const char *path;
+    /** The id of the plug-in; empty after an error. */
+    const char *plugin_id;
+    /** Its version; empty after an error. */
+    const char *plugin_version;
+    /** The compiler that built it; empty if it does not say so, and after an error. */
+    const char *built_with;
+    /** What is wrong, and what to do; empty if nothing is. */
+    const char *message;
+    /** How many block types it has; 0 after an error. */
+    uint32_t block_count;
+    /** 0. */
+    uint32_t reserved0;
+} ptl_scan_report;
+
+/**
+ * Called for each file in which ptl_engine_scan_plugins() looked for a plug-in, on the thread that
+ * called that. A nonzero result ends the search. `report` is valid during the call. No C++ or other
+ * exception may leave it.
+ */
+typedef int32_t (PTL_CALL *ptl_scan_fn)(const ptl_scan_report *report, void *user_data);
 
 /** A parameter of a block type. All texts are UTF-8 and live as long as the engine. */
 typedef struct ptl_param_info {
@@ -775,7 +810,58 @@ PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_engine_set_log(
     ptl_error **error);
 
 /**
- * The number of block types. 0 for NULL.
+ * Loads a plug-in from a file, and adds its block types to the engine. `path` is UTF-8 and ends
+ * with ".ptplugin.so" (".dll", ".dylib"). This runs code of the file with all rights of your
+ * program: only load what you trust. Loading one again changes nothing. Plug-ins are never
+ * unloaded.
+ *
+ * Threads: any; graphs of the engine may be computed meanwhile.
+ * Errors:  PTL_E_INVALID_ARGUMENT, PTL_E_PLUGIN_LOAD if the system cannot load the file (the
+ *          message has all causes), PTL_E_PLUGIN_SYMBOL if it is no plug-in, PTL_E_PLUGIN_LAYOUT,
+ *          PTL_E_PLUGIN_ABI, PTL_E_PLUGIN_DESCRIPTOR, PTL_E_PLUGIN_INIT, PTL_E_PLUGIN_DUPLICATE
+ *          if another one has a block type of the same id (the message names both).
+ * Since:   0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_engine_load_plugin(
+    ptl_engine *engine,
+    const char *path,
+    ptl_error **error);
+
+/**
+ * Loads every plug-in in some folders, and adds their block types to the engine: see
+ * ptl_engine_load_plugin(). `folders` are separated as in PATH; NULL for the usual ones: those of
+ * the variable PTLIB_PLUGIN_PATH, that of the user, that of the system. Only files whose names end
+ * with ".ptplugin.so" (".dll", ".dylib") are opened. A file that is refused does not end the
+ * search, nor is it an error of this function: `report` (may be NULL) hears of each file. Of two
+ * plug-ins with a block type of one id, the first wins.
+ *
+ * Threads: any; graphs of the engine may be computed meanwhile.
+ * Errors:  PTL_E_INVALID_ARGUMENT, PTL_E_CANCELLED if `report` ended the search.
+ * Since:   0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_engine_scan_plugins(
+    ptl_engine *engine,
+    const char *folders,
+    ptl_scan_fn report,
+    void *user_data,
+    ptl_error **error);
+
+/**
+ * Adds the block types of a plug-in that is linked into your program: `entry` is its ptlp_entry of
+ * ptlib_plugin.h. Adding one again changes nothing.
+ *
+ * Ownership: the tables are borrowed for as long as the process lives.
+ * Threads:   any; graphs of the engine may be computed meanwhile.
+ * Errors:    PTL_E_PLUGIN_ABI, PTL_E_PLUGIN_DESCRIPTOR, PTL_E_PLUGIN_INIT, PTL_E_PLUGIN_DUPLICATE.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_engine_register_plugin(
+    ptl_engine *engine,
+    const struct ptlp_entry *entry,
+    ptl_error **error);
+
+/**
+ * The number of block types; plug-ins add some. 0 for NULL.
  *
  * Threads: any.
  * Since:   0.1
@@ -783,7 +869,8 @@ PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_engine_set_log(
 PTL_API uint32_t PTL_CALL ptl_engine_block_type_count(const ptl_engine *engine);
 
 /**
- * Block type number `index`, by family; NULL if there is none.
+ * Block type number `index`: the built-in ones by family, then those of plug-ins in the order in
+ * which they came. NULL if there is none.
  *
  * Ownership: it lives as long as the engine.
  * Threads:   any.

@@ -714,10 +714,56 @@ public:
         return found ? std::optional<block_type>(block_type(found)) : std::nullopt;
     }
 
+    /// Loads a plug-in from a file; runs code of the file.
+    void load_plugin(const std::string &path)
+    {
+        detail::call(ptl_engine_load_plugin, handle_.get(), path.c_str());
+    }
+
+    /// Loads every plug-in of some folders, separated as in PATH, or of the usual ones. `report`
+    /// hears of each file; false ends the search. What it throws comes out of here.
+    template <class Report>
+    void scan_plugins(Report report, const std::optional<std::string> &folders = std::nullopt)
+    {
+        scan<Report> state{report, nullptr};
+        try {
+            detail::call(ptl_engine_scan_plugins, handle_.get(),
+                         folders ? folders->c_str() : nullptr, scan<Report>::trampoline, &state);
+        } catch (...) {
+            if (state.thrown) {
+                std::rethrow_exception(state.thrown);
+            }
+            throw;
+        }
+    }
+
+    /// Adds the block types of a plug-in that is linked into the program.
+    void register_plugin(const struct ptlp_entry &entry)
+    {
+        detail::call(ptl_engine_register_plugin, handle_.get(), &entry);
+    }
+
     ptl_engine *get() const noexcept { return handle_.get(); }
 
 private:
     explicit engine(ptl_engine *handle) : handle_(handle) {}
+
+    template <class Report> struct scan {
+        Report &report;
+        std::exception_ptr thrown;
+
+        static std::int32_t PTL_CALL trampoline(const ptl_scan_report *told,
+                                                void *user_data) noexcept
+        {
+            scan &self = *static_cast<scan *>(user_data);
+            try {
+                return self.report(*told) ? 0 : 1;
+            } catch (...) {
+                self.thrown = std::current_exception();
+                return 1;
+            }
+        }
+    };
 
     using log_function = std::function<void(std::int32_t, std::string_view)>;
 

@@ -13,6 +13,7 @@ int main(void)
     CHECK(ptl_abi_sizeof(PTL_STRUCT_PARAM_INFO) == sizeof(ptl_param_info));
     CHECK(ptl_abi_sizeof(PTL_STRUCT_PORT_INFO) == sizeof(ptl_port_info));
     CHECK(ptl_abi_sizeof(PTL_STRUCT_FAULT) == sizeof(ptl_fault));
-    CHECK(ptl_abi_sizeof(0) == 0 && ptl_abi_sizeof(9) == 0);
+    CHECK(ptl_abi_sizeof(PTL_STRUCT_SCAN_REPORT) == sizeof(ptl_scan_report));
+    CHECK(ptl_abi_sizeof(0) == 0 && ptl_abi_sizeof(10) == 0);
     return 0;
 }

@@ -9,13 +9,14 @@ use std::{fs, path::PathBuf};
 use crate::{Result, repository};
 
 /// The sources, in the order in which the header explains things.
-const SOURCES: [&str; 16] = [
+const SOURCES: [&str; 17] = [
     "status",
     "types",
     "version",
     "error",
     "engine",
     "log",
+    "plugin",
     "block_type",
     "graph",
     "graph_settings",
@@ -105,7 +106,9 @@ fn laid_out(declarations: &str) -> String {
         let line = if line.starts_with("typedef struct") {
             line.to_owned()
         } else {
-            line.replace("struct ptl_", "ptl_").replace("(*ptl_", "(PTL_CALL *ptl_")
+            line.replace("struct ptl_", "ptl_")
+                .replace("(*ptl_", "(PTL_CALL *ptl_")
+                .replace("const ptlp_entry *", "const struct ptlp_entry *")
         };
         let starts = line.starts_with("PTL_MUST_USE") || line.starts_with("PTL_API");
         if starts || function.is_some() {

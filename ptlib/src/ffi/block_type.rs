@@ -1,11 +1,11 @@
 //! Block types: the catalogue's functions.
 
-use std::ffi::c_char;
+use std::{ffi::c_char, sync::Arc};
 
 use super::{
     catalogue::BlockTypeObject,
     error::at,
-    handle::{Handle, Opaque, lend, tag},
+    handle::{Handle, Opaque, Tagged, lend, tag},
     ptl_engine, ptl_param_info, ptl_port_info, ptl_status,
     structs::InOut,
 };
@@ -26,16 +26,23 @@ fn count<T>(list: &[T]) -> u32 {
     u32::try_from(list.len()).unwrap_or(u32::MAX)
 }
 
-/// The number of block types. 0 for NULL.
+/// The handle of a block type that stays in its engine's catalogue.
+fn lent(found: Option<&Arc<Tagged<BlockTypeObject>>>) -> *const ptl_block_type {
+    found.map_or(std::ptr::null(), |found| lend(found))
+}
+
+/// The number of block types; plug-ins add some. 0 for NULL.
 ///
 /// Threads: any.
 /// Since:   0.1
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ptl_engine_block_type_count(engine: *const ptl_engine) -> u32 {
-    pt_fn!(else 0; engine: Handle<ptl_engine> => count(&engine.catalogue.0))
+    pt_fn!(else 0; engine: Handle<ptl_engine> =>
+        u32::try_from(engine.catalogue.len()).unwrap_or(u32::MAX))
 }
 
-/// Block type number `index`, by family; NULL if there is none.
+/// Block type number `index`: the built-in ones by family, then those of plug-ins in the order in
+/// which they came. NULL if there is none.
 ///
 /// Ownership: it lives as long as the engine.
 /// Threads:   any.
@@ -46,7 +53,7 @@ pub unsafe extern "C" fn ptl_engine_block_type_at(
     index: u32,
 ) -> *const ptl_block_type {
     pt_fn!(else std::ptr::null(); engine: Handle<ptl_engine> =>
-        engine.catalogue.0.get(index as usize).map_or(std::ptr::null(), lend))
+        lent(engine.catalogue.at(index as usize).as_ref()))
 }
 
 /// The block type of that id, such as "perlin noise"; NULL if there is none.
@@ -60,7 +67,7 @@ pub unsafe extern "C" fn ptl_engine_find_block_type(
     id: *const c_char,
 ) -> *const ptl_block_type {
     pt_fn!(else std::ptr::null(); engine: Handle<ptl_engine>, id: &str =>
-        engine.catalogue.find(id).map_or(std::ptr::null(), lend))
+        lent(engine.catalogue.find(id).as_ref()))
 }
 
 /// The id of a block type in files and in this interface. NULL for NULL.
@@ -113,8 +120,7 @@ pub unsafe extern "C" fn ptl_block_type_doc(block_type: *const ptl_block_type) -
 /// Since:     0.1
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ptl_block_type_plugin(block_type: *const ptl_block_type) -> *const c_char {
-    // Every type that a registry can hold today is built in.
-    pt_fn!(else std::ptr::null(); _block_type: Handle<ptl_block_type> = block_type => c"".as_ptr())
+    pt_fn!(else std::ptr::null(); block_type: Handle<ptl_block_type> => block_type.plugin.as_ptr())
 }
 
 /// PTL_BLOCK_... flags of a block type. 0 for NULL.

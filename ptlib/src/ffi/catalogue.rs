@@ -1,7 +1,11 @@
 //! The catalogue: every block type with its parameters and ports, as texts and numbers that C can
-//! read. Made once an engine, from the declarations that everything else reads too.
+//! read. Made from the declarations that everything else reads too, once an engine; the block types
+//! of plug-ins join later.
 
-use std::ffi::{CString, c_char};
+use std::{
+    ffi::{CString, c_char},
+    sync::{Arc, PoisonError, RwLock},
+};
 
 use super::{
     PTL_BLOCK_IS_RESULT, PTL_BLOCK_TILES, PTL_BLOCK_USES_SEED, PTL_BLOCK_WRITES_FILE,
@@ -9,7 +13,7 @@ use super::{
     PTL_PARAM_READS_FILE, PTL_PARAM_TEXT, PTL_PARAM_WRITES_FILE, PTL_PORT_FREE_RANGE,
     PTL_PORT_OPTIONAL,
     fault::c_string,
-    handle::{Tagged, tagged_in_place},
+    handle::{Tagged, tagged},
     ptl_block_type, ptl_param_info, ptl_port_info,
 };
 use crate::{
@@ -17,9 +21,9 @@ use crate::{
     params::{ChoiceItem, FileUse, ParamKind, ParamSpec, ParamValue},
 };
 
-/// Every block type of an engine.
-#[derive(Debug)]
-pub(super) struct Catalogue(pub(super) Vec<Tagged<BlockTypeObject>>);
+/// Every block type of an engine. None is ever removed: callers hold borrowed handles.
+#[derive(Debug, Default)]
+pub(super) struct Catalogue(RwLock<Vec<Arc<Tagged<BlockTypeObject>>>>);
 
 #[derive(Debug)]
 pub(super) struct BlockTypeObject {
@@ -28,6 +32,7 @@ pub(super) struct BlockTypeObject {
     pub(super) name: CString,
     pub(super) category: CString,
     pub(super) doc: CString,
+    pub(super) plugin: CString,
     pub(super) params: Vec<ParamTexts>,
     pub(super) inputs: Vec<PortTexts>,
     pub(super) outputs: Vec<PortTexts>,
@@ -75,21 +80,39 @@ impl<'a> FromIterator<&'a str> for TextList {
 
 impl Catalogue {
     pub(super) fn of(registry: &Registry) -> Self {
-        let types = registry.blocks().into_iter().map(|spec| {
-            let category = registry.family_of(spec.about.id).unwrap_or_default();
-            tagged_in_place::<ptl_block_type>(BlockTypeObject::of(spec, category))
-        });
-        Self(types.collect())
+        let catalogue = Self::default();
+        catalogue.extend(registry);
+        catalogue
     }
 
-    pub(super) fn find(&self, id: &str) -> Option<&Tagged<BlockTypeObject>> {
-        self.0.iter().find(|block_type| block_type.spec.about.id == id)
+    /// Adds the block types that have come to the registry.
+    pub(super) fn extend(&self, registry: &Registry) {
+        let mut types = self.0.write().unwrap_or_else(PoisonError::into_inner);
+        for spec in registry.blocks().into_iter().skip(types.len()) {
+            types.push(tagged::<ptl_block_type>(BlockTypeObject::of(spec, registry)));
+        }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.0.read().unwrap_or_else(PoisonError::into_inner).len()
+    }
+
+    pub(super) fn at(&self, index: usize) -> Option<Arc<Tagged<BlockTypeObject>>> {
+        self.0.read().unwrap_or_else(PoisonError::into_inner).get(index).cloned()
+    }
+
+    pub(super) fn find(&self, id: &str) -> Option<Arc<Tagged<BlockTypeObject>>> {
+        let types = self.0.read().unwrap_or_else(PoisonError::into_inner);
+        types.iter().find(|block_type| block_type.spec.about.id == id).cloned()
     }
 }
 
 impl BlockTypeObject {
-    fn of(spec: &'static BlockSpec, category: &str) -> Self {
+    fn of(spec: &'static BlockSpec, registry: &Registry) -> Self {
+        let category = registry.family_of(spec.about.id).unwrap_or_default();
+        let plugin = registry.plugin_of(spec.about.id).map(|plugin| plugin.id.as_str());
         Self {
+            plugin: c_string(plugin.unwrap_or_default()),
             spec,
             id: c_string(spec.about.id),
             name: c_string(&spec.name()),

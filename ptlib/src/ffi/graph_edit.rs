@@ -114,7 +114,7 @@ pub unsafe extern "C" fn ptl_graph_block_type(
             let message = format!("the engine does not list block type \"{}\"", spec.about.id);
             Error::new(ErrorKind::Internal, message)
         })?;
-        out.set(found);
+        out.set(&found);
         Ok(())
     })
 }

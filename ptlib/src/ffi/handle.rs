@@ -64,11 +64,6 @@ pub(super) fn tagged<T: Opaque>(value: T::Object) -> Arc<Tagged<T::Object>> {
     Arc::new(Tagged { tag: AtomicU32::new(T::TAG), value })
 }
 
-/// An object inside another one, such as a block type in its engine's catalogue.
-pub(super) fn tagged_in_place<T: Opaque>(value: T::Object) -> Tagged<T::Object> {
-    Tagged { tag: AtomicU32::new(T::TAG), value }
-}
-
 /// A new handle: one reference that its receiver releases.
 pub(super) fn give<T: Opaque>(object: Arc<Tagged<T::Object>>) -> *mut T {
     Arc::into_raw(object).cast_mut().cast()
@@ -246,7 +241,7 @@ mod tests {
 
     #[test]
     fn a_lent_handle_leads_to_its_object() {
-        let word = tagged_in_place::<ptl_word>(*b"abc");
+        let word = tagged::<ptl_word>(*b"abc");
         assert_eq!(*receive(lend::<ptl_word>(&word)).unwrap(), *b"abc");
     }
 

@@ -140,6 +140,36 @@ pub type ptl_log_fn =
 /// Called when the library needs `user_data` no longer.
 pub type ptl_free_fn = Option<unsafe extern "C" fn(user_data: *mut c_void)>;
 
+/// What became of a file in which ptl_engine_scan_plugins() looked for a plug-in.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ptl_scan_report {
+    /// Size of this struct in bytes.
+    pub struct_size: u32,
+    /// PTL_OK if its block types can be used now; else why not.
+    pub status: ptl_status,
+    /// The file, or a folder that cannot be read.
+    pub path: *const c_char,
+    /// The id of the plug-in; empty after an error.
+    pub plugin_id: *const c_char,
+    /// Its version; empty after an error.
+    pub plugin_version: *const c_char,
+    /// The compiler that built it; empty if it does not say so, and after an error.
+    pub built_with: *const c_char,
+    /// What is wrong, and what to do; empty if nothing is.
+    pub message: *const c_char,
+    /// How many block types it has; 0 after an error.
+    pub block_count: u32,
+    /// 0.
+    pub reserved0: u32,
+}
+
+/// Called for each file in which ptl_engine_scan_plugins() looked for a plug-in, on the thread that
+/// called that. A nonzero result ends the search. `report` is valid during the call. No C++ or other
+/// exception may leave it.
+pub type ptl_scan_fn =
+    Option<unsafe extern "C" fn(report: *const ptl_scan_report, user_data: *mut c_void) -> i32>;
+
 /// How an engine is made. Every field that is 0 or NULL means: as usual.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -368,6 +398,8 @@ pub const PTL_STRUCT_PARAM_INFO: u32 = 6;
 pub const PTL_STRUCT_PORT_INFO: u32 = 7;
 /// For ptl_abi_sizeof(): ptl_fault.
 pub const PTL_STRUCT_FAULT: u32 = 8;
+/// For ptl_abi_sizeof(): ptl_scan_report.
+pub const PTL_STRUCT_SCAN_REPORT: u32 = 9;
 
 // SAFETY: as the head of this file says; `abi_sizes_are_stable` adds up the fields.
 unsafe impl CStruct for ptl_progress {
@@ -441,5 +473,6 @@ mod tests {
         assert_eq!(size_of::<ptl_param_info>(), 4 * 4 + 4 * 8 + 9 * 8 + 3 * 8 + 2 * 4);
         assert_eq!(size_of::<ptl_port_info>(), 4 * 4 + 2 * 8);
         assert_eq!(size_of::<ptl_fault>(), 4 * 4 + 8 + 2 * 8);
+        assert_eq!(size_of::<ptl_scan_report>(), 2 * 4 + 5 * 8 + 2 * 4);
     }
 }

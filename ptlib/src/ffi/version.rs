@@ -72,6 +72,7 @@ pub extern "C" fn ptl_abi_sizeof(struct_id: u32) -> usize {
         PTL_STRUCT_PARAM_INFO => size_of::<ptl_param_info>(),
         PTL_STRUCT_PORT_INFO => size_of::<ptl_port_info>(),
         PTL_STRUCT_FAULT => size_of::<ptl_fault>(),
+        PTL_STRUCT_SCAN_REPORT => size_of::<ptl_scan_report>(),
         _ => 0,
     })
 }

@@ -69,3 +69,6 @@
 extern "C" {
 #endif
 
+/* A plug-in that is linked into the program: see ptlib_plugin.h. */
+struct ptlp_entry;
+
