@@ -1,18 +1,29 @@
-//! Plug-ins in C, built here and loaded as a program would.
+//! Plug-ins in C and in Rust, built here and loaded as a program would.
 
-use std::{path::PathBuf, process::Command, sync::Mutex};
+use std::{
+    env, fs,
+    path::{Path, PathBuf},
+    process::Command,
+    sync::{Mutex, PoisonError},
+};
 
-use ptlib::{ComputeOptions, Engine, EngineOptions, Image};
+use ptlib::{ComputeOptions, Engine, EngineOptions, Error, ErrorKind, Image, params::ParamValue};
 
 use crate::abi::{root, run, scratch, tool};
 
+/// Only one test at a time builds.
+static BUILDING: Mutex<()> = Mutex::new(());
+
+fn folder() -> PathBuf {
+    let folder = scratch().join("plugins");
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
 /// Builds `tests/plugins/NAME.c` as a plug-in; `None` if there is no compiler.
 fn build(name: &str) -> Option<PathBuf> {
-    static BUILDING: Mutex<()> = Mutex::new(());
-    let _one_at_a_time = BUILDING.lock().unwrap();
-    let folder = scratch().join("plugins");
-    std::fs::create_dir_all(&folder).unwrap();
-    let plugin = folder.join(format!("{name}.ptplugin.so"));
+    let _one = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
+    let plugin = folder().join(format!("{name}.ptplugin.so"));
     let mut command = Command::new(tool("cc")?);
     command.args(["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic-errors", "-Werror"]);
     command.args(["-shared", "-fPIC", "-fvisibility=hidden"]);
@@ -22,7 +33,27 @@ fn build(name: &str) -> Option<PathBuf> {
     Some(plugin)
 }
 
-/// What `block` makes of a picture, at 200 × 100 pixels.
+/// The plug-in in Rust, which cargo built with these tests, under the name of a plug-in.
+fn rust_plugin() -> PathBuf {
+    let _one = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
+    let plugin = folder().join("rust.ptplugin.so");
+    let own = env::current_exe().unwrap();
+    let library = own.parent().unwrap().join("libptlib_test_plugin.so");
+    let is_new = fs::read(&plugin).ok() != Some(fs::read(&library).unwrap());
+    if is_new {
+        let _ = fs::remove_file(&plugin);
+        fs::copy(library, &plugin).unwrap();
+    }
+    plugin
+}
+
+fn engine(plugin: &Path) -> Engine {
+    let engine = Engine::new(EngineOptions::default());
+    engine.load_plugin(plugin).unwrap();
+    engine
+}
+
+/// What `block` makes of a picture of several segments a row.
 fn through(engine: &Engine, block: &str) -> Image {
     let mut graph = engine.new_graph();
     let (source, block) = (graph.add("fault formation noise").unwrap(), graph.add(block).unwrap());
@@ -31,13 +62,110 @@ fn through(engine: &Engine, block: &str) -> Image {
     engine.compute(&graph, block, 0, options).unwrap()
 }
 
-#[test]
-fn a_block_of_a_plugin_is_like_a_built_in_one() {
-    let Some(plugin) = build("points") else { return };
-    let engine = Engine::new(EngineOptions::default());
-    let info = engine.load_plugin(&plugin).unwrap();
-    assert_eq!((info.id.as_str(), info.version.as_str()), ("ptlib-test.points", "1.0.0"));
-    let (foreign, builtin) = (through(&engine, "ptlib-test.invert"), through(&engine, "invert"));
+fn assert_inverts(engine: &Engine, block: &str) {
+    let (foreign, builtin) = (through(engine, block), through(engine, "invert"));
     assert_eq!(foreign.planes(), builtin.planes());
     assert_eq!(foreign.channel(0), builtin.channel(0));
+}
+
+#[test]
+fn a_block_in_c_is_like_a_built_in_one() {
+    let Some(plugin) = build("points") else { return };
+    let engine = engine(&plugin);
+    let [info] = engine.registry().plugins()[..] else { panic!("one plug-in") };
+    assert_eq!((info.id.as_str(), info.version.as_str()), ("ptlib-test.points", "1.0.0"));
+    assert_inverts(&engine, "ptlib-test.invert");
+}
+
+#[test]
+fn a_block_in_rust_is_like_a_built_in_one() {
+    let engine = engine(&rust_plugin());
+    let info = engine.registry().plugin_of("ptlib-rust.invert").unwrap();
+    assert!(info.built_with.starts_with("rustc"), "{}", info.built_with);
+    assert_inverts(&engine, "ptlib-rust.invert");
+    let spec = engine.registry().get("ptlib-rust.fail").unwrap();
+    assert_eq!(spec.name(), "Failing");
+    let ids: Vec<_> = spec.params.iter().map(|param| param.id).collect();
+    assert_eq!(ids, ["where", "words", "grey", "number of things", "strange"]);
+    assert_eq!(spec.params[3].unit, "px");
+    assert_eq!(spec.params[2].default_value(), ParamValue::Float(0.25));
+}
+
+#[test]
+fn two_plugins_and_linked_ones_live_in_one_engine() {
+    let Some(plugin) = build("points") else { return };
+    let engine = engine(&plugin);
+    engine.load_plugin(&rust_plugin()).unwrap();
+    // Again: nothing happens.
+    engine.load_plugin(&plugin).unwrap();
+    assert_eq!(engine.registry().plugins().len(), 2);
+    assert_inverts(&engine, "ptlib-test.invert");
+    assert_inverts(&engine, "ptlib-rust.invert");
+
+    let other = Engine::new(EngineOptions::default());
+    let entry = &raw const ptlib_test_plugin::ptl_plugin_entry_v1;
+    register(&other, entry).unwrap();
+    assert_inverts(&other, "ptlib-rust.invert");
+    // The same blocks from another place are refused, naming both.
+    let error = other.load_plugin(&rust_plugin()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::PluginDuplicate);
+    assert!(error.to_string().contains("linked into the program"), "{error}");
+    assert!(error.to_string().contains("rust.ptplugin.so"), "{error}");
+}
+
+#[expect(unsafe_code, reason = "tables of a plug-in are given as a pointer")]
+fn register(engine: &Engine, entry: *const ptlib_plugin_abi::ptlp_entry) -> Result<(), Error> {
+    // SAFETY: the static of a plug-in made by the SDK.
+    unsafe { engine.register_plugin(entry) }.map(drop)
+}
+
+/// The error of a block that fails where it is told to.
+fn failure(engine: &Engine, place: u32, options: ComputeOptions<'_>) -> Result<Image, Error> {
+    let mut graph = engine.new_graph();
+    let fail = graph.add("ptlib-rust.fail").unwrap();
+    graph.set(fail, "where", ParamValue::Choice(place)).unwrap();
+    graph.set(fail, "words", ParamValue::Text("seven of nine".into())).unwrap();
+    engine.compute(&graph, fail, 0, options)
+}
+
+#[test]
+fn failures_and_panics_become_errors_with_the_name_of_the_block() {
+    let engine = engine(&rust_plugin());
+    let image = failure(&engine, 0, ComputeOptions::default()).unwrap();
+    assert_eq!(image.row(0, 9)[9], 0.25);
+    let kinds = [
+        ErrorKind::InvalidArgument,
+        ErrorKind::PluginPanic,
+        ErrorKind::PluginFailed,
+        ErrorKind::PluginPanic,
+        ErrorKind::PluginPanic,
+    ];
+    for (place, kind) in (1..).zip(kinds) {
+        let error = failure(&engine, place, ComputeOptions::default()).unwrap_err();
+        assert_eq!(error.kind(), kind, "{error}");
+        assert_eq!(error.place().block_type.as_deref(), Some("ptlib-rust.fail"));
+        assert!(place == 5 || error.to_string().contains("seven of nine"), "{error}");
+    }
+    // The host lives, and goes on with white where it is asked to.
+    for place in 1..=5 {
+        let mut failures = Vec::new();
+        let options = ComputeOptions {
+            keep_going: true,
+            failures: Some(&mut failures),
+            ..ComputeOptions::default()
+        };
+        let image = failure(&engine, place, options).unwrap();
+        assert_eq!((image.row(0, 0)[0], image.row(0, 255)[255]), (1.0, 1.0));
+        assert_eq!(failures.len(), 1);
+    }
+}
+
+#[test]
+fn numbers_that_are_not_finite_become_0() {
+    let engine = engine(&rust_plugin());
+    let mut graph = engine.new_graph();
+    let fail = graph.add("ptlib-rust.fail").unwrap();
+    graph.set(fail, "strange", ParamValue::Bool(true)).unwrap();
+    let image = engine.compute(&graph, fail, 0, ComputeOptions::default()).unwrap();
+    assert!(image.channel(0).iter().all(|value| *value == 0.0));
 }
