@@ -30,7 +30,7 @@
 //!     };
 //!
 //!     fn prepare(params: &Params, _: &Setup<'_>) -> Result<Self, BlockError> {
-//!         Ok(Self { level: params.level as f32 })
+//!         Ok(Self { level: math::single(params.level) })
 //!     }
 //!
 //!     fn compute(&self, call: &mut Call<'_>) -> Result<(), BlockError> {

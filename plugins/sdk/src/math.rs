@@ -9,6 +9,14 @@ fn table() -> &'static ptlp_math {
     service(PTLP_MATH).expect("mathematics come from the host, inside of its calls")
 }
 
+/// The nearest number of single precision.
+#[inline]
+#[must_use]
+#[expect(clippy::cast_possible_truncation, reason = "that is what it is for")]
+pub fn single(x: f64) -> f32 {
+    x as f32
+}
+
 /// Sine of an angle in radians.
 ///
 /// # Panics

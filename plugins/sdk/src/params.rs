@@ -166,47 +166,6 @@ macro_rules! params {
     (@type choice $choice:ident) => { $choice };
     (@type text) => { String };
     (@type path $use:ident) => { String };
-    (@kind $param:ident int $default:expr; $($range:tt)*) => {
-        $param.r#type = $crate::private::abi::PTLP_PARAM_INT;
-        $param.default_value = $default as f64;
-        $crate::params!(@range $param $($range)*);
-    };
-    (@kind $param:ident float $default:expr; $($range:tt)*) => {
-        $param.r#type = $crate::private::abi::PTLP_PARAM_FLOAT;
-        $param.default_value = $default;
-        $crate::params!(@range $param $($range)*);
-    };
-    (@kind $param:ident bool $default:expr;) => {
-        $param.r#type = $crate::private::abi::PTLP_PARAM_FLAG;
-        $param.default_value = $default as u8 as f64;
-    };
-    (@kind $param:ident choice $default:expr; $choice:ident) => {
-        $param.r#type = $crate::private::abi::PTLP_PARAM_CHOICE;
-        $param.default_value = $default as u32 as f64;
-        $param.choice_count = $crate::private::count($choice::IDS.len());
-        $param.choice_ids = $choice::IDS.as_ptr();
-        $param.choice_docs = $choice::DOCS.as_ptr();
-    };
-    (@kind $param:ident text $default:expr;) => {
-        $param.r#type = $crate::private::abi::PTLP_PARAM_TEXT;
-        $param.default_text = concat!($default, "\0").as_ptr().cast();
-    };
-    (@kind $param:ident path $default:expr; read) => {
-        $param.r#type = $crate::private::abi::PTLP_PARAM_PATH;
-        $param.flags = $crate::private::abi::PTLP_PARAM_READS_FILE;
-        $param.default_text = concat!($default, "\0").as_ptr().cast();
-    };
-    (@kind $param:ident path $default:expr; write) => {
-        $param.r#type = $crate::private::abi::PTLP_PARAM_PATH;
-        $param.default_text = concat!($default, "\0").as_ptr().cast();
-    };
-    (@range $param:ident hard $hlo:literal ..= $hhi:literal soft $slo:literal ..= $shi:literal $(unit $unit:literal)?) => {
-        $param.min = $hlo as f64;
-        $param.max = $hhi as f64;
-        $param.soft_min = $slo as f64;
-        $param.soft_max = $shi as f64;
-        $($param.unit = concat!($unit, "\0").as_ptr().cast();)?
-    };
     ($(#[$meta:meta])* $name:ident {
         $($(#[doc = $doc:literal])+ $field:ident $($id:literal)?: $kind:ident $([$($range:tt)*])? = $default:expr;)*
     }) => {
@@ -222,7 +181,7 @@ macro_rules! params {
                         $crate::params!(@id $field $($id)?).as_ptr().cast(),
                         concat!($($doc, "\n"),+, "\0").as_ptr().cast(),
                     );
-                    $crate::params!(@kind param $kind $default; $($($range)*)?);
+                    $crate::param_kind!(param $kind $default; $($($range)*)?);
                     param
                 };
                 &PARAM
@@ -237,5 +196,52 @@ macro_rules! params {
                 },)* }
             }
         }
+    };
+}
+
+/// What a kind of parameter has besides its id and help; a part of [`params!`](crate::params!).
+#[doc(hidden)]
+#[macro_export]
+macro_rules! param_kind {
+    ($param:ident int $default:expr; $($range:tt)*) => {
+        $param.r#type = $crate::private::abi::PTLP_PARAM_INT;
+        $param.default_value = $default as f64;
+        $crate::param_kind!(@range $param $($range)*);
+    };
+    ($param:ident float $default:expr; $($range:tt)*) => {
+        $param.r#type = $crate::private::abi::PTLP_PARAM_FLOAT;
+        $param.default_value = $default;
+        $crate::param_kind!(@range $param $($range)*);
+    };
+    ($param:ident bool $default:expr;) => {
+        $param.r#type = $crate::private::abi::PTLP_PARAM_FLAG;
+        $param.default_value = $default as u8 as f64;
+    };
+    ($param:ident choice $default:expr; $choice:ident) => {
+        $param.r#type = $crate::private::abi::PTLP_PARAM_CHOICE;
+        $param.default_value = $default as u32 as f64;
+        $param.choice_count = $crate::private::count($choice::IDS.len());
+        $param.choice_ids = $choice::IDS.as_ptr();
+        $param.choice_docs = $choice::DOCS.as_ptr();
+    };
+    ($param:ident text $default:expr;) => {
+        $param.r#type = $crate::private::abi::PTLP_PARAM_TEXT;
+        $param.default_text = concat!($default, "\0").as_ptr().cast();
+    };
+    ($param:ident path $default:expr; read) => {
+        $param.r#type = $crate::private::abi::PTLP_PARAM_PATH;
+        $param.flags = $crate::private::abi::PTLP_PARAM_READS_FILE;
+        $param.default_text = concat!($default, "\0").as_ptr().cast();
+    };
+    ($param:ident path $default:expr; write) => {
+        $param.r#type = $crate::private::abi::PTLP_PARAM_PATH;
+        $param.default_text = concat!($default, "\0").as_ptr().cast();
+    };
+    (@range $param:ident hard $hlo:literal ..= $hhi:literal soft $slo:literal ..= $shi:literal $(unit $unit:literal)?) => {
+        $param.min = $hlo as f64;
+        $param.max = $hhi as f64;
+        $param.soft_min = $slo as f64;
+        $param.soft_max = $shi as f64;
+        $($param.unit = concat!($unit, "\0").as_ptr().cast();)?
     };
 }

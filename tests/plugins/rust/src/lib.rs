@@ -98,7 +98,7 @@ impl Block for Fail {
             Where::TaskPanic => call.work().parallel(3, |_| panic!("{}", self.0.words))?,
             _ => {}
         }
-        let value = if self.0.strange { f32::NAN } else { self.0.grey as f32 };
+        let value = if self.0.strange { f32::NAN } else { math::single(self.0.grey) };
         let mut out = call.output(0)?;
         (0..out.height()).for_each(|y| out.row_mut(0, y).fill(value));
         Ok(())
