@@ -169,3 +169,31 @@ fn numbers_that_are_not_finite_become_0() {
     let image = engine.compute(&graph, fail, 0, ComputeOptions::default()).unwrap();
     assert!(image.channel(0).iter().all(|value| *value == 0.0));
 }
+
+#[test]
+fn a_graph_file_names_the_plugin_of_a_block_and_is_kept_without_it() {
+    let with = engine(&rust_plugin());
+    let mut graph = with.new_graph();
+    let fail = graph.add("ptlib-rust.fail").unwrap();
+    let end = graph.add("end").unwrap();
+    graph.connect(fail, 0, end, 0).unwrap();
+    graph.set(fail, "words", ParamValue::Text("kept".into())).unwrap();
+    let xml = graph.to_xml();
+    assert!(xml.contains("plugin=\"ptlib-rust\" plugin-version=\"0.1.0\""), "{xml}");
+
+    let without = Engine::new(EngineOptions::default());
+    let reading = without.read_graph(xml.as_bytes()).unwrap();
+    assert_eq!(reading.graph.to_xml(), xml);
+    let end = reading.graph.main_result().unwrap();
+    let error = without.compute(&reading.graph, end, 0, ComputeOptions::default()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::NotFound);
+    assert!(error.to_string().contains("plug-in \"ptlib-rust\" (version 0.1.0)"), "{error}");
+
+    let newer = xml.replace("plugin-version=\"0.1.0\"", "plugin-version=\"0.12.0\"");
+    let reading = with.read_graph(newer.as_bytes()).unwrap();
+    let [warning] = &reading.warnings[..] else { panic!("{:?}", reading.warnings) };
+    assert!(warning.to_string().contains("version 0.12.0 of plug-in"), "{warning}");
+    let end = reading.graph.main_result().unwrap();
+    with.compute(&reading.graph, end, 0, ComputeOptions::default()).unwrap();
+    assert_eq!(reading.graph.to_xml(), xml);
+}

@@ -1,6 +1,6 @@
 //! What is wrong with a graph.
 
-use super::{BlockId, Graph, edit::name};
+use super::{BlockId, Graph, Origin, edit::name};
 use crate::{
     block::BlockSpec,
     error::{Error, ErrorKind},
@@ -76,10 +76,15 @@ impl Graph {
         match block.spec {
             Some(spec) => Ok(spec),
             None => {
-                let error = self.registry.get(&block.type_id).err().unwrap_or_else(|| {
-                    Error::new(ErrorKind::NotFound, "its type came after the graph was read")
-                        .with_hint("read the graph again")
-                });
+                let known = self.registry.get(&block.type_id);
+                let error = match (known, &block.origin) {
+                    (Ok(_), _) => {
+                        Error::new(ErrorKind::NotFound, "its type came after the graph was read")
+                            .with_hint("read the graph again")
+                    }
+                    (Err(_), Some(origin)) => missing(origin),
+                    (Err(error), None) => error,
+                };
                 Err(self.at(id, error))
             }
         }
@@ -118,6 +123,16 @@ impl Graph {
     }
 }
 
+/// The error of a block whose plug-in is not there.
+fn missing(origin: &Origin) -> Error {
+    let message = format!(
+        "its type comes from plug-in \"{}\" (version {}), which is not loaded",
+        origin.plugin, origin.version
+    );
+    Error::new(ErrorKind::NotFound, message)
+        .with_hint("`ptc plugins` shows where plug-ins are looked for")
+}
+
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
@@ -135,6 +150,7 @@ mod tests {
             id: "5".to_owned(),
             type_id: Arc::from("no such type"),
             spec: None,
+            origin: None,
             seed: None,
             values: vec![],
             inputs: vec![],

@@ -168,6 +168,7 @@ mod tests {
                 id: number.to_string(),
                 type_id: "unknown".into(),
                 spec: None,
+                origin: None,
                 seed: None,
                 values: Vec::new(),
                 inputs: Vec::new(),

@@ -66,6 +66,7 @@ impl Graph {
             id,
             type_id: spec.about.id.into(),
             spec: Some(spec),
+            origin: None,
             seed: None,
             values: spec.params.iter().map(ParamSpec::default_value).collect(),
             inputs: vec![None; spec.about.inputs.len()],

@@ -14,4 +14,4 @@ mod edit;
 mod model;
 
 pub(crate) use connector::Connector;
-pub use model::{Block, BlockId, Connection, Graph, RawParameter, Settings, Source};
+pub use model::{Block, BlockId, Connection, Graph, Origin, RawParameter, Settings, Source};

@@ -70,12 +70,22 @@ pub struct RawParameter {
     pub value: String,
 }
 
+/// The plug-in that a block's type comes from, as a file names it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Origin {
+    /// Its id.
+    pub plugin: String,
+    /// Its version when the file was written.
+    pub version: String,
+}
+
 /// One block of a graph.
 #[derive(Debug, Clone)]
 pub struct Block {
     pub(crate) id: String,
     pub(crate) type_id: Arc<str>,
     pub(crate) spec: Option<&'static BlockSpec>,
+    pub(crate) origin: Option<Origin>,
     pub(crate) seed: Option<u64>,
     pub(crate) values: Vec<ParamValue>,
     pub(crate) inputs: Vec<Option<Source>>,
@@ -100,6 +110,12 @@ impl Block {
     #[must_use]
     pub fn spec(&self) -> Option<&'static BlockSpec> {
         self.spec
+    }
+
+    /// The plug-in that its file says its type comes from.
+    #[must_use]
+    pub fn origin(&self) -> Option<&Origin> {
+        self.origin.as_ref()
     }
 
     /// The seed that it has instead of the graph's.

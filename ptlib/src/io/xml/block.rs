@@ -12,11 +12,11 @@ use super::{
 use crate::{
     block::Registry,
     error::{Error, ErrorKind},
-    graph::{Block, BlockId, Graph, RawParameter},
+    graph::{Block, BlockId, Graph, Origin, RawParameter},
     params::{ParamSpec, ParamValue},
 };
 
-const KNOWN: [&str; 3] = ["type", "id", "seed"];
+const KNOWN: [&str; 5] = ["type", "id", "seed", "plugin", "plugin-version"];
 
 /// A block's element with the children that matter.
 pub(super) struct Draft<'a> {
@@ -60,6 +60,7 @@ impl<'a> Draft<'a> {
             id: id.value.clone().into_owned(),
             type_id: spec.map_or_else(|| (*type_id.value).into(), |spec| spec.about.id.into()),
             spec,
+            origin: origin(element),
             seed: seed(element, report),
             values: spec.map_or_else(Vec::new, |spec| {
                 spec.params.iter().map(ParamSpec::default_value).collect()
@@ -74,6 +75,11 @@ impl<'a> Draft<'a> {
             }
         } else {
             report.warn_with(type_id.offset, || stranger(graph.known(handle)));
+        }
+        if let (Some(newer), Some(attribute)) =
+            (newer_origin(graph, handle), element.get("plugin-version"))
+        {
+            report.warn(attribute.offset, graph.at(handle, newer));
         }
         set_parameters(graph, handle, &known, report);
         Some(Target { handle, inputs: self.inputs })
@@ -113,6 +119,37 @@ impl Parameter<'_> {
         let own = |attribute: &Attribute<'_>| attribute.value.clone().into_owned();
         RawParameter { name: own(self.name), kind: own(self.kind), value: own(self.value) }
     }
+}
+
+/// The plug-in that the block's type comes from, if it names one.
+fn origin(element: &Element<'_>) -> Option<Origin> {
+    let text = |name| element.get(name).map(|attribute| attribute.value.clone().into_owned());
+    let (plugin, version) = (text("plugin"), text("plugin-version"));
+    let is_named = plugin.is_some() || version.is_some();
+    is_named.then(|| Origin {
+        plugin: plugin.unwrap_or_default(),
+        version: version.unwrap_or_default(),
+    })
+}
+
+/// The warning that the file was written with a newer version of the plug-in than is loaded.
+fn newer_origin(graph: &Graph, handle: BlockId) -> Option<Error> {
+    let block = graph.block(handle).ok()?;
+    let origin = block.origin()?;
+    let loaded = graph.registry().plugin_of(block.type_id())?;
+    if numbers_of(&origin.version) <= numbers_of(&loaded.version) {
+        return None;
+    }
+    let message = format!(
+        "was written with version {} of plug-in \"{}\", loaded is {}",
+        origin.version, loaded.id, loaded.version
+    );
+    Some(Error::new(ErrorKind::Unsupported, message).with_hint("it may look different"))
+}
+
+/// The numbers of a version, for comparing.
+fn numbers_of(version: &str) -> Vec<u64> {
+    version.split(['.', '-', '+']).map_while(|part| part.parse().ok()).collect()
 }
 
 /// The seed of the block alone, if it has one.

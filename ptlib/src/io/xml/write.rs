@@ -66,6 +66,13 @@ fn write_block(out: &mut String, graph: &Graph, block: &Block) {
     out.push_str("\t<block");
     attribute(out, "type", &block.type_id());
     attribute(out, "id", &block.id());
+    let plugin = block.spec().and_then(|_| graph.registry().plugin_of(block.type_id()));
+    let loaded = plugin.map(|plugin| (&plugin.id, &plugin.version));
+    let named = || block.origin().map(|origin| (&origin.plugin, &origin.version));
+    if let Some((plugin, version)) = loaded.or_else(named) {
+        attribute(out, "plugin", plugin);
+        attribute(out, "plugin-version", version);
+    }
     if let Some(seed) = block.seed() {
         attribute(out, "seed", &seed.cast_signed());
     }
