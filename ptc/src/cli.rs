@@ -4,6 +4,7 @@ use clap::{Parser, Subcommand, error::ErrorKind};
 
 use crate::{
     check::CheckArguments,
+    check_plugin::CheckPluginArguments,
     describe::DescribeArguments,
     exit::{Exit, Fault},
     list::ListArguments,
@@ -36,6 +37,8 @@ pub(crate) enum Command {
     Describe(DescribeArguments),
     /// Check graph files and show every fault with its line and column.
     Check(CheckArguments),
+    /// Check a plug-in: whether it keeps what the contract promises.
+    CheckPlugin(CheckPluginArguments),
 }
 
 /// Answers what `clap` did not take as a command: shows the help or the version that was asked

@@ -1,11 +1,13 @@
 //! `ptc`: the command of ptlib. It renders graphs into pictures, checks graph files, and shows
 //! what blocks there are.
 //!
-//! One file a subcommand: [`render`], [`list`], [`describe`], [`check`]. What they share: [`exit`]
+//! One file a subcommand: [`render`], [`list`], [`describe`], [`check`],
+//! [`check_plugin`]. What they share: [`exit`]
 //! (how the command ends), [`terminal`] (what people see), [`description`] (a block in words, for
 //! people and as JSON), [`finding`] (a fault of a graph file). Everything else is the library.
 
 mod check;
+mod check_plugin;
 mod cli;
 mod describe;
 mod description;
@@ -45,5 +47,6 @@ fn run(command: &Command) -> Result<Exit, Fault> {
         Command::List(arguments) => list::run(arguments),
         Command::Describe(arguments) => describe::run(arguments),
         Command::Check(arguments) => check::run(arguments),
+        Command::CheckPlugin(arguments) => check_plugin::run(arguments),
     }
 }

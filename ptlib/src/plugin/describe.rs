@@ -5,7 +5,7 @@ use ptlib_plugin_abi::*;
 
 use super::{
     check::{Block, Param, Port},
-    foreign::{Factory, ThreadMode},
+    foreign::{Factory, Foreign, ThreadMode},
 };
 use crate::{
     block::{
@@ -18,6 +18,13 @@ use crate::{
     value::Kind,
 };
 
+/// A block type as the registry wants it.
+pub(super) struct Described {
+    pub(super) family: &'static str,
+    pub(super) spec: &'static BlockSpec,
+    pub(super) foreign: &'static Foreign,
+}
+
 const KNOWN_FLAGS: u32 = PTLP_BLOCK_USES_SEED | PTLP_BLOCK_NOT_DETERMINISTIC;
 
 /// The family and the description of a block type. What it points to is leaked: it is made once in
@@ -25,7 +32,7 @@ const KNOWN_FLAGS: u32 = PTLP_BLOCK_USES_SEED | PTLP_BLOCK_NOT_DETERMINISTIC;
 ///
 /// # Errors
 /// [`PluginDescriptor`](crate::ErrorKind::PluginDescriptor), naming block and field.
-pub(super) fn describe(block: &Block) -> Result<(&'static str, &'static BlockSpec), Error> {
+pub(super) fn describe(block: &Block) -> Result<Described, Error> {
     let table = block.table;
     block.reader.flags(table.flags, KNOWN_FLAGS, "flags")?;
     let params = block.params.iter().map(param).collect::<Result<Vec<_>, _>>()?;
@@ -50,20 +57,23 @@ pub(super) fn describe(block: &Block) -> Result<(&'static str, &'static BlockSpe
     if about.summary.is_empty() {
         return Err(block.reader.fault("doc", "says nothing"));
     }
-    let implementation = implementation(block, &about)?;
+    let (implementation, foreign) = implementation(block, &about)?;
     let family = match block.text(table.category, "category")? {
         "" => "plug-ins",
         family => family,
     };
     let spec = BlockSpec { about, params: leak(params), implementation };
-    Ok((family, Box::leak(Box::new(spec))))
+    Ok(Described { family, spec: Box::leak(Box::new(spec)), foreign })
 }
 
 fn leak<T>(values: Vec<T>) -> &'static [T] {
     Vec::leak(values)
 }
 
-fn implementation(block: &Block, about: &About) -> Result<Implementation, Error> {
+fn implementation(
+    block: &Block,
+    about: &About,
+) -> Result<(Implementation, &'static Foreign), Error> {
     let (reader, table) = (&block.reader, block.table);
     if about.outputs.is_empty() {
         return Err(reader.fault("output_count", "is 0, allowed from 1 on"));
@@ -82,7 +92,10 @@ fn implementation(block: &Block, about: &About) -> Result<Implementation, Error>
     };
     let reads_anywhere = about.inputs.iter().any(|port| port.access == Access::Anywhere);
     match table.shape {
-        PTLP_SHAPE_WHOLE => return Ok(Implementation::Whole(Factory::leaked(table, threads))),
+        PTLP_SHAPE_WHOLE => {
+            let factory = Factory::leaked(table, threads);
+            return Ok((Implementation::Whole(factory), factory.foreign()));
+        }
         PTLP_SHAPE_POINT if reads_anywhere => {
             let message = "is POINT, but an input has PTLP_PORT_ANYWHERE: make it GATHER";
             return Err(reader.fault("shape", message));
@@ -105,7 +118,8 @@ fn implementation(block: &Block, about: &About) -> Result<Implementation, Error>
         );
         return Err(reader.fault("outputs", message));
     }
-    Ok(Implementation::Rows(Factory::leaked(table, threads)))
+    let factory = Factory::leaked(table, threads);
+    Ok((Implementation::Rows(factory), factory.foreign()))
 }
 
 fn input(port: &Port) -> Result<InputPort, Error> {

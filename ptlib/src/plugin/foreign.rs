@@ -61,6 +61,10 @@ impl Factory {
         let foreign = Box::leak(Box::new(Foreign { table, threads, global: Mutex::new(()) }));
         Box::leak(Box::new(Self(foreign)))
     }
+
+    pub(super) fn foreign(&self) -> &'static Foreign {
+        self.0
+    }
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
@@ -93,6 +97,18 @@ impl Foreign {
             Ok(())
         })?;
         Ok(instance)
+    }
+
+    /// Computes with an instance that is made for it.
+    pub(super) fn compute_once(
+        &'static self,
+        setup: &Setup,
+        means: Means<'_>,
+        inputs: &[*const ptlp_wire],
+        outputs: &[*const ptlp_wire],
+    ) -> Result<(), Error> {
+        let instance = self.prepared(setup, means)?;
+        instance.compute(&Call::new(means), inputs, outputs)
     }
 
     fn memory(&self, values: &[ParamValue], width: u32, height: u32) -> Result<u64, Error> {

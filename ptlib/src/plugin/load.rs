@@ -11,7 +11,8 @@ use ptlib_plugin_abi::{PTLP_OK, ptlp_entry};
 
 use super::{
     check::Entry,
-    describe::describe,
+    describe::{Described, describe},
+    foreign::Foreign,
     host::host,
     library::{self, Refusal},
     services,
@@ -25,8 +26,7 @@ use crate::{
 /// A plug-in whose tables were read, for as long as the process lives.
 struct Plugin {
     info: PluginInfo,
-    /// Each with the name of its family.
-    blocks: Vec<(&'static str, &'static BlockSpec)>,
+    blocks: Vec<Described>,
 }
 
 /// What became of an entry: a plug-in is read, and initialised, once in a process.
@@ -88,7 +88,8 @@ impl Engine {
             known.entry(entry as usize).or_insert_with(read).clone()
         };
         let plugin = outcome?;
-        self.registry().add_plugin(&plugin.info, &plugin.blocks)?;
+        let blocks = plugin.blocks.iter().map(|block| (block.family, block.spec));
+        self.registry().add_plugin(&plugin.info, &blocks.collect::<Vec<_>>())?;
         Ok(&plugin.info)
     }
 
@@ -135,6 +136,13 @@ impl Engine {
         };
         Err(Error::new(ErrorKind::PluginInit, message))
     }
+}
+
+/// The block of a plug-in behind a block type; `None` for a built-in one.
+pub(super) fn foreign_of(spec: &BlockSpec) -> Option<&'static Foreign> {
+    let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut blocks = known.values().flatten().flat_map(|plugin| &plugin.blocks);
+    blocks.find(|block| std::ptr::eq(block.spec, spec)).map(|block| block.foreign)
 }
 
 /// `error` with the name of the file before its message.

@@ -21,6 +21,7 @@ mod foreign;
 mod host;
 mod library;
 mod load;
+pub mod probe;
 mod search;
 mod services;
 mod setup;

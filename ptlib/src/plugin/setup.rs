@@ -40,7 +40,7 @@ impl Setup {
     ) -> Result<Self, Error> {
         let size = (cx.width, cx.height);
         let inputs = Wires::of_inputs(cx.inputs, cx.planes.inputs, size);
-        Self::of(values, precision, size, cx.seed, inputs)
+        Self::with(values, precision, size, cx.seed, inputs)
     }
 
     /// For a question that is asked before inputs are there.
@@ -53,10 +53,12 @@ impl Setup {
         height: u32,
     ) -> Result<Self, Error> {
         let none = Wires::of_inputs(&[], &[], (width, height));
-        Self::of(values, Precision::Float, (width, height), 0, none)
+        Self::with(values, Precision::Float, (width, height), 0, none)
     }
 
-    fn of(
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub(super) fn with(
         values: &[ParamValue],
         precision: Precision,
         (width, height): (u32, u32),
