@@ -205,7 +205,7 @@ impl<'a, 'g> Execution<'a, 'g> {
             match output.kind {
                 Kind::Image => {}
                 Kind::Text => return Ok(Some(Value::Text("".into()))),
-                Kind::Gradient => return Ok(None),
+                Kind::Gradient | Kind::Points | Kind::Mesh | Kind::Strands => return Ok(None),
             }
             let mut image = Image::new(self.means.pool, width, height, output.planes)?;
             image.planes_mut().for_each(|plane| plane.fill(1.0));
