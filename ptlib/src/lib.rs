@@ -5,7 +5,7 @@
 //! threads, with a cache, and with the same bits on every machine.
 //!
 //! The layers, each seeing only those before it: [`math`] → [`value`] → [`mod@params`] → [`block`]
-//! → `blocks`; [`graph`] → [`run`]; `io`; [`ffi`] (the C ABI, on the public interface of this crate
+//! → `blocks`; [`graph`] → [`run`]; `io`; `plugin`; [`ffi`] (the C ABI, on the public interface of this crate
 //! only). `ARCHITECTURE.md` in the repository is the map.
 
 pub mod block;
@@ -17,6 +17,7 @@ pub mod io;
 pub mod limits;
 pub mod math;
 pub mod params;
+mod plugin;
 pub mod run;
 pub mod value;
 

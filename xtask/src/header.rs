@@ -9,7 +9,7 @@ use std::{fs, path::PathBuf};
 use crate::{Result, repository};
 
 /// The sources, in the order in which the header explains things.
-const SOURCES: [&str; 16] = [
+const SOURCES: [&str; 18] = [
     "status",
     "types",
     "version",
@@ -25,6 +25,8 @@ const SOURCES: [&str; 16] = [
     "job",
     "cancel",
     "image",
+    "value",
+    "graph_values",
     "bytes",
 ];
 

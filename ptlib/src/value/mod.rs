@@ -43,4 +43,5 @@ pub use resample::{Axis, Interpolation, Resampling, Span};
 pub use strands::{StrandParts, Strands};
 pub use stream::{Elements, Scalar, Stream, StreamShape};
 
+pub(crate) use words::check_bytes;
 pub use words::{Memory, Words, WordsMut};
