@@ -4,7 +4,7 @@ use std::{fs, path::PathBuf};
 
 use ptlib::{
     BlockId, Engine, Graph, Precision,
-    block::BlockSpec,
+    block::{BlockSpec, Role},
     io,
     params::{FileUse, ParamKind},
     value::Kind,
@@ -61,7 +61,7 @@ fn alone(engine: &Engine, spec: &'static BlockSpec) -> Result<(Graph, BlockId)> 
     let mut graph = engine.new_graph();
     let block = graph.add(spec.about.id)?;
     for (number, port) in (0..).zip(spec.about.inputs) {
-        if port.is_optional {
+        if port.is_optional && spec.about.role != Role::Input {
             continue;
         }
         let source = match port.kind {

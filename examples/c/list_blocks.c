@@ -13,6 +13,9 @@ static const char *kind_name(uint32_t kind)
     case PTL_KIND_IMAGE: return "image";
     case PTL_KIND_GRADIENT: return "gradient";
     case PTL_KIND_TEXT: return "text";
+    case PTL_KIND_POINTS: return "points";
+    case PTL_KIND_MESH: return "mesh";
+    case PTL_KIND_STRANDS: return "strands";
     default: return "unknown kind";
     }
 }

@@ -12,7 +12,7 @@
  * error that tells more and that you release with ptl_error_release(). Other outputs are written as
  * the function says: handles become NULL on error, everything else stays untouched.
  *
- * Handles are opaque. Engines, graphs, images and cancel requests are reference counted:
+ * Handles are opaque. Engines, graphs, images, values and cancel requests are reference counted:
  * ptl_..._retain() adds a reference, ptl_..._release() gives one up. Errors, bytes and jobs have
  * one owner, who releases them. Every release takes NULL, on any thread and in any order: what is
  * still needed inside is kept alive. A handle must not be used after its last reference was
@@ -41,6 +41,8 @@
 
 #include <stddef.h>
 #include <stdint.h>
+
+#include "ptlib_values.h"
 
 #define PTL_VERSION_MAJOR 0
 #define PTL_VERSION_MINOR 1
@@ -88,15 +90,6 @@ struct ptlp_entry;
 /** The first row is the top one. */
 #define PTL_ORIGIN_TOP_LEFT 1
 
-/** A port takes or gives an image. */
-#define PTL_KIND_IMAGE 1
-
-/** A port takes or gives a colour transition. */
-#define PTL_KIND_GRADIENT 2
-
-/** A port takes or gives a text, such as the string of an L-system. */
-#define PTL_KIND_TEXT 3
-
 /** A whole number. */
 #define PTL_PARAM_INT 1
 
@@ -139,8 +132,14 @@ struct ptlp_entry;
 /** Of a block type: its output always tiles when its inputs do. */
 #define PTL_BLOCK_TILES 8
 
+/** Of a block type: its value is set by ptl_graph_set_input(). */
+#define PTL_BLOCK_IS_INPUT 16
+
 /** In engine options: results are not kept for later computations. */
 #define PTL_ENGINE_NO_CACHE 1
+
+/** For ptl_value_from_mesh() and its kin: the data stays the caller's. */
+#define PTL_VALUE_BORROW 1
 
 /** In compute options: `seed` counts, also if it is 0. */
 #define PTL_COMPUTE_SEED 1
@@ -184,8 +183,29 @@ struct ptlp_entry;
 /** For ptl_abi_sizeof(): ptl_fault. */
 #define PTL_STRUCT_FAULT 8
 
+/** For ptl_abi_sizeof(): ptl_stream. */
+#define PTL_STRUCT_STREAM 9
+
+/** For ptl_abi_sizeof(): ptl_mesh_data. */
+#define PTL_STRUCT_MESH_DATA 10
+
+/** For ptl_abi_sizeof(): ptl_points_data. */
+#define PTL_STRUCT_POINTS_DATA 11
+
+/** For ptl_abi_sizeof(): ptl_strands_data. */
+#define PTL_STRUCT_STRANDS_DATA 12
+
+/** For ptl_abi_sizeof(): ptl_gradient_data. */
+#define PTL_STRUCT_GRADIENT_DATA 13
+
+/** For ptl_abi_sizeof(): ptl_text_data. */
+#define PTL_STRUCT_TEXT_DATA 14
+
+/** For ptl_abi_sizeof(): ptl_image_data. */
+#define PTL_STRUCT_IMAGE_DATA 15
+
 /** For ptl_abi_sizeof(): ptl_scan_report. */
-#define PTL_STRUCT_SCAN_REPORT 9
+#define PTL_STRUCT_SCAN_REPORT 16
 
 /**
  * The version of the header's functions and structs. A library serves every program that was
@@ -231,6 +251,12 @@ typedef struct ptl_image ptl_image;
  * threads at once; one thread at a time waits.
  */
 typedef struct ptl_job ptl_job;
+
+/**
+ * What flows on a wire: a mesh, points, strands, a text, a colour transition or an image. It is
+ * reference counted, never changes, and any thread may read it.
+ */
+typedef struct ptl_value ptl_value;
 
 /**
  * What a call came to: PTL_OK, PTL_PENDING, or an error (PTL_E_...). The numbers never change;
@@ -1752,6 +1778,266 @@ PTL_API ptl_image *PTL_CALL ptl_image_retain(ptl_image *image);
  * Since:   0.1
  */
 PTL_API void PTL_CALL ptl_image_release(ptl_image *image);
+
+/**
+ * Makes a mesh of the caller's triangles, checked: every number is finite, every index is the
+ * number of a vertex, and so on; ptlib_values.h says what streams there are. Normals of another
+ * length than 1 are made so. Bounds are computed, whatever those given are.
+ *
+ * Ownership: without PTL_VALUE_BORROW the data is copied during the call. With it the indices and
+ *            the data of the streams stay the caller's and must not change until `free` is
+ *            called; the structs are needed during the call only. `free`, which may be NULL, is
+ *            called exactly once with `user_data`, from any thread: when the data is needed no
+ *            longer, also if it was copied, and also when the call fails. `out` receives one
+ *            reference; release it with ptl_value_release().
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_OUT_OF_RANGE with the first wrong element and how many
+ *            there are, PTL_E_LIMIT, PTL_E_NO_MEMORY, PTL_E_UNSUPPORTED. On error `*out` is NULL.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_from_mesh(
+    const ptl_mesh_data *mesh,
+    uint32_t flags,
+    ptl_free_fn free,
+    void *user_data,
+    ptl_value **out,
+    ptl_error **error);
+
+/**
+ * Makes points of the caller's, checked.
+ *
+ * Ownership: as ptl_value_from_mesh().
+ * Threads:   any.
+ * Errors:    as ptl_value_from_mesh(); a normal or a direction without length is one.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_from_points(
+    const ptl_points_data *points,
+    uint32_t flags,
+    ptl_free_fn free,
+    void *user_data,
+    ptl_value **out,
+    ptl_error **error);
+
+/**
+ * Makes strands of the caller's polylines, checked.
+ *
+ * Ownership: as ptl_value_from_mesh().
+ * Threads:   any.
+ * Errors:    as ptl_value_from_mesh(); a normal or a direction without length is one.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_from_strands(
+    const ptl_strands_data *strands,
+    uint32_t flags,
+    ptl_free_fn free,
+    void *user_data,
+    ptl_value **out,
+    ptl_error **error);
+
+/**
+ * Makes a text.
+ *
+ * Ownership: as ptl_value_from_mesh(), but the text is always copied during the call.
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_LIMIT, PTL_E_UNSUPPORTED. On error `*out` is NULL.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_from_text(
+    const ptl_text_data *text,
+    uint32_t flags,
+    ptl_free_fn free,
+    void *user_data,
+    ptl_value **out,
+    ptl_error **error);
+
+/**
+ * Makes a colour transition. Its stops may be in any order; of those at one position the first
+ * counts. Without stops it is a middle grey.
+ *
+ * Ownership: as ptl_value_from_mesh(), but the stops are always copied during the call.
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_OUT_OF_RANGE, PTL_E_LIMIT, PTL_E_UNSUPPORTED. On error
+ *            `*out` is NULL.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_from_gradient(
+    const ptl_gradient_data *gradient,
+    uint32_t flags,
+    ptl_free_fn free,
+    void *user_data,
+    ptl_value **out,
+    ptl_error **error);
+
+/**
+ * Makes an image of the caller's pixels, which need no alignment.
+ *
+ * Ownership: as ptl_value_from_mesh(), but the pixels are always converted during the call.
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_OUT_OF_RANGE if a number is not finite, PTL_E_LIMIT,
+ *            PTL_E_NO_MEMORY, PTL_E_UNSUPPORTED. On error `*out` is NULL.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_from_image(
+    const ptl_image_data *image,
+    uint32_t flags,
+    ptl_free_fn free,
+    void *user_data,
+    ptl_value **out,
+    ptl_error **error);
+
+/**
+ * What the value is: one of PTL_KIND_...; PTL_KIND_NONE for NULL.
+ *
+ * Threads: any.
+ * Since:   0.1
+ */
+PTL_API uint32_t PTL_CALL ptl_value_kind(const ptl_value *value);
+
+/**
+ * One more reference to the same value; NULL for NULL.
+ *
+ * Ownership: release each reference with ptl_value_release().
+ * Threads:   any.
+ * Since:     0.1
+ */
+PTL_API ptl_value *PTL_CALL ptl_value_retain(ptl_value *value);
+
+/**
+ * Gives up one reference; NULL is fine.
+ *
+ * Threads: any.
+ * Since:   0.1
+ */
+PTL_API void PTL_CALL ptl_value_release(ptl_value *value);
+
+/**
+ * Fills in where the data of a mesh is: nothing is copied.
+ *
+ * Ownership: everything that it points to lives as long as the value, and nobody may change it.
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_TYPE_MISMATCH if it is no mesh. On error `inout` is
+ *            untouched.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_mesh(
+    const ptl_value *value,
+    ptl_mesh_data *inout,
+    ptl_error **error);
+
+/**
+ * Fills in where the data of points is: nothing is copied.
+ *
+ * Ownership: everything that it points to lives as long as the value, and nobody may change it.
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_TYPE_MISMATCH. On error `inout` is untouched.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_points(
+    const ptl_value *value,
+    ptl_points_data *inout,
+    ptl_error **error);
+
+/**
+ * Fills in where the data of strands is: nothing is copied.
+ *
+ * Ownership: everything that it points to lives as long as the value, and nobody may change it.
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_TYPE_MISMATCH. On error `inout` is untouched.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_strands(
+    const ptl_value *value,
+    ptl_strands_data *inout,
+    ptl_error **error);
+
+/**
+ * Fills in where a text is; it has a NUL behind it that does not count.
+ *
+ * Ownership: it lives as long as the value.
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_TYPE_MISMATCH. On error `inout` is untouched.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_text(
+    const ptl_value *value,
+    ptl_text_data *inout,
+    ptl_error **error);
+
+/**
+ * Fills in where the stops of a colour transition are, by rising position.
+ *
+ * Ownership: they live as long as the value.
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_TYPE_MISMATCH. On error `inout` is untouched.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_gradient(
+    const ptl_value *value,
+    ptl_gradient_data *inout,
+    ptl_error **error);
+
+/**
+ * The image of a value, in any format (PTL_FORMAT_AUTO: floats, as many channels as it has).
+ *
+ * Ownership: `out` receives one reference; release it with ptl_image_release(). It does not need
+ *            the value any more.
+ * Threads:   any.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_TYPE_MISMATCH, PTL_E_NO_MEMORY. On error `*out` is
+ *            NULL.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_value_image(
+    const ptl_value *value,
+    ptl_format format,
+    ptl_image **out,
+    ptl_error **error);
+
+/**
+ * Sets the value of an input of the graph (a block type with PTL_BLOCK_IS_INPUT), or takes it back
+ * with NULL: then its default counts. Computations that run already keep what they have. Values
+ * are not saved with the graph.
+ *
+ * Ownership: the graph keeps a reference of its own.
+ * Threads:   one at a time changes a graph.
+ * Errors:    PTL_E_INVALID_ARGUMENT, PTL_E_STALE_HANDLE, PTL_E_TYPE_MISMATCH if the block is no
+ *            input or takes values of another kind, PTL_E_BUSY.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_graph_set_input(
+    ptl_graph *graph,
+    ptl_block block,
+    const ptl_value *value,
+    ptl_error **error);
+
+/**
+ * The first input of the graph, in file order, whose parameter "name" is `name`; 0 if there is
+ * none.
+ *
+ * Threads: any.
+ * Since:   0.1
+ */
+PTL_API ptl_block PTL_CALL ptl_graph_find_input(const ptl_graph *graph, const char *name);
+
+/**
+ * Computes one output of a block, of any kind, and returns a new value. Otherwise as
+ * ptl_graph_compute(); `format` of the options does not matter.
+ *
+ * Ownership: `out` receives one reference; release it with ptl_value_release(). Nothing of
+ *            `options` is kept. What an input gave may come back as it was given, uncopied: then
+ *            memory that was lent for it is needed as long as this value.
+ * Threads:   any; callbacks run on the calling thread only.
+ * Cancel:    as ptl_graph_compute().
+ * Errors:    as ptl_graph_compute(). On error `*out` is NULL.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_graph_compute_value(
+    const ptl_graph *graph,
+    ptl_block block,
+    uint32_t out_port,
+    const ptl_compute_options *options,
+    ptl_value **out,
+    ptl_error **error);
 
 /**
  * The bytes. They are followed by a NUL that does not count. `size` may be NULL. NULL and

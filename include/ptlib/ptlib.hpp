@@ -228,6 +228,116 @@ private:
     detail::owner<ptl_image, ptl_image_release> handle_;
 };
 
+/// What flows on a wire: a mesh, points, strands, a text, a colour transition or an image.
+class value {
+public:
+    /// Called once, when memory that was lent is needed no longer; it must not throw.
+    using release = std::function<void()>;
+
+    explicit value(ptl_value *handle) : handle_(handle) {}
+
+    /// Copies the caller's data.
+    explicit value(const ptl_mesh_data &mesh) : value(made(ptl_value_from_mesh, mesh)) {}
+    explicit value(const ptl_points_data &points) : value(made(ptl_value_from_points, points)) {}
+    explicit value(const ptl_strands_data &strands) : value(made(ptl_value_from_strands, strands))
+    {
+    }
+    explicit value(const ptl_gradient_data &gradient)
+        : value(made(ptl_value_from_gradient, gradient))
+    {
+    }
+    explicit value(const ptl_image_data &image) : value(made(ptl_value_from_image, image)) {}
+    explicit value(std::string_view text) : value(made_of_text(text)) {}
+
+    /// Uses the caller's data where it is, until `done` is called. That happens also if this
+    /// throws.
+    static value borrow(const ptl_mesh_data &mesh, release done)
+    {
+        return value(lent(ptl_value_from_mesh, mesh, std::move(done)));
+    }
+    static value borrow(const ptl_points_data &points, release done)
+    {
+        return value(lent(ptl_value_from_points, points, std::move(done)));
+    }
+    static value borrow(const ptl_strands_data &strands, release done)
+    {
+        return value(lent(ptl_value_from_strands, strands, std::move(done)));
+    }
+
+    value retain() const { return value(ptl_value_retain(handle_.get())); }
+
+    /// One of PTL_KIND_...
+    std::uint32_t kind() const noexcept { return ptl_value_kind(handle_.get()); }
+
+    /// Where the data is; it lives as long as the value.
+    ptl_mesh_data mesh() const { return view<ptl_mesh_data>(ptl_value_mesh); }
+    ptl_points_data points() const { return view<ptl_points_data>(ptl_value_points); }
+    ptl_strands_data strands() const { return view<ptl_strands_data>(ptl_value_strands); }
+    ptl_gradient_data gradient() const { return view<ptl_gradient_data>(ptl_value_gradient); }
+    std::string_view text() const
+    {
+        const auto text = view<ptl_text_data>(ptl_value_text);
+        return {text.text, text.size};
+    }
+
+    ptlib::image image(ptl_format format = PTL_FORMAT_AUTO) const
+    {
+        ptl_image *result = nullptr;
+        detail::call(ptl_value_image, handle_.get(), format, &result);
+        return ptlib::image(result);
+    }
+
+    ptl_value *get() const noexcept { return handle_.get(); }
+
+private:
+    template <typename Data>
+    using maker = ptl_status(PTL_CALL *)(const Data *, std::uint32_t, ptl_free_fn, void *,
+                                         ptl_value **, ptl_error **);
+
+    template <typename Data> static ptl_value *made(maker<Data> make, const Data &data)
+    {
+        ptl_value *result = nullptr;
+        detail::call(make, &data, 0u, nullptr, nullptr, &result);
+        return result;
+    }
+
+    static ptl_value *made_of_text(std::string_view text)
+    {
+        ptl_text_data data = {};
+        data.struct_size = sizeof data;
+        data.text = text.data();
+        data.size = text.size();
+        return made(ptl_value_from_text, data);
+    }
+
+    template <typename Data>
+    static ptl_value *lent(maker<Data> make, const Data &data, release done)
+    {
+        auto *owned = new release(std::move(done));
+        ptl_value *result = nullptr;
+        detail::call(make, &data, std::uint32_t{PTL_VALUE_BORROW}, &end_loan, owned, &result);
+        return result;
+    }
+
+    static void PTL_CALL end_loan(void *user_data) noexcept
+    {
+        const std::unique_ptr<release> done(static_cast<release *>(user_data));
+        if (*done) {
+            (*done)();
+        }
+    }
+
+    template <typename Data, typename Function> Data view(Function function) const
+    {
+        Data data = {};
+        data.struct_size = sizeof data;
+        detail::call(function, handle_.get(), &data);
+        return data;
+    }
+
+    detail::owner<ptl_value, ptl_value_release> handle_;
+};
+
 /// How a computation differs from what the graph and the engine say.
 struct compute_options {
     std::uint32_t width = 0;
@@ -551,6 +661,21 @@ public:
     {
         return ptl_graph_find_block(handle_.get(), file_id.c_str());
     }
+    /// The first input of the graph of that name, or 0.
+    ptl_block find_input(const std::string &name) const
+    {
+        return ptl_graph_find_input(handle_.get(), name.c_str());
+    }
+    /// Sets the value of an input of the graph.
+    void set_input(ptl_block block, const value &input)
+    {
+        detail::call(ptl_graph_set_input, handle_.get(), block, input.get());
+    }
+    /// Takes it back: then its default counts.
+    void clear_input(ptl_block block)
+    {
+        detail::call(ptl_graph_set_input, handle_.get(), block, nullptr);
+    }
     /// The last block of type "end", or 0.
     ptl_block main_result() const { return ptl_graph_main_result(handle_.get()); }
     /// The id of a block in the graph's file.
@@ -590,6 +715,20 @@ public:
             ptl_graph_compute(handle_.get(), block, output, &prepared, &result, &reason);
         finish(watcher, status, reason);
         return image(result);
+    }
+
+    /// Computes an output of any kind.
+    value compute_value(ptl_block block, const compute_options &options = {},
+                        std::uint32_t output = 0) const
+    {
+        detail::watcher watcher(options.progress);
+        const ptl_compute_options prepared = watcher.prepare(options);
+        ptl_value *result = nullptr;
+        ptl_error *reason = nullptr;
+        const ptl_status status =
+            ptl_graph_compute_value(handle_.get(), block, output, &prepared, &result, &reason);
+        finish(watcher, status, reason);
+        return value(result);
     }
 
     /// Computes into pixels of yours; a stride of 0 is rows without gaps.

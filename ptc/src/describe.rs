@@ -202,6 +202,9 @@ fn notes(block: &BlockDescription) -> Vec<String> {
     let mut notes = vec![];
     match block.role {
         "result" => notes.push("Its output is a result of the graph.".to_owned()),
+        "input" => {
+            notes.push("The caller sets its value, as with `ptc render --input`.".to_owned());
+        }
         "writer" => notes.push("It writes a file, where `--allow-write` lets it.".to_owned()),
         _ => {}
     }

@@ -17,7 +17,7 @@ pub(crate) struct BlockDescription {
     pub(crate) family: &'static str,
     /// What it makes, in one sentence.
     pub(crate) summary: &'static str,
-    /// `inner`, `result` or `writer`.
+    /// `inner`, `result`, `writer` or `input`.
     pub(crate) role: &'static str,
     /// `point`, `gather` or `whole`.
     pub(crate) shape: &'static str,
@@ -218,6 +218,7 @@ fn role(role: Role) -> &'static str {
         Role::Inner => "inner",
         Role::Result => "result",
         Role::Writer => "writer",
+        Role::Input => "input",
     }
 }
 

@@ -189,3 +189,28 @@ fn texts_of_strangers_do_not_reach_the_terminal_as_they_are() {
     let run = folder.ptc(&["render", "a.xml", "-o", "a.png"]).ends_with(1).says_one_error();
     assert!(!run.err.contains('\u{9b}'), "{run:#?}");
 }
+
+#[test]
+fn inputs_get_their_values_from_files() {
+    let folder = folder("render_inputs");
+    let blocks = "<block type=\"image input\" id=\"0\">\
+                  <parameter name=\"name\" type=\"string\" value=\"photo\"/></block>\n\
+                  <block type=\"text input\" id=\"1\"/>\n\
+                  <block type=\"invert\" id=\"2\"><input id=\"0\" slot=\"0\"/></block>\n\
+                  <block type=\"turtle\" id=\"3\"><input id=\"1\" slot=\"0\"/></block>\n";
+    let text = graph(&format!("{blocks}{}{}", end("4", "3"), end("5", "2")));
+    folder.write("inputs.xml", &text);
+    folder.write("line.txt", "D(0.2)");
+    folder.ptc(&["render", "noise.xml", "-o", "photo.png"]).ends_with(0);
+    let run = |inputs: &[&str]| {
+        folder.ptc(
+            &[&["render", "inputs.xml", "-o", "{block}.png", "--all-results"], inputs].concat(),
+        )
+    };
+    run(&["--input", "photo=photo.png", "--input", "text=line.txt"]).ends_with(0);
+    assert_ne!(folder.read("5.png"), folder.read("photo.png"));
+    let missing = run(&["--input", "photo=photo.png"]).ends_with(1);
+    assert!(missing.err.contains("--input"), "{}", missing.err);
+    let unknown = run(&["--input", "foto=photo.png"]).ends_with(1);
+    assert!(unknown.err.contains("its inputs are \"photo\", \"text\""), "{}", unknown.err);
+}

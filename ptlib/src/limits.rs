@@ -26,6 +26,20 @@ pub struct Limits {
     /// as many bytes; rewriting may take 64 times as many steps, for rules may replace a text for
     /// ever; and a turtle may draw 1024 times as many pixels, for one step can have billions.
     pub text_symbols: u32,
+    /// Stops of a colour transition that is given from outside.
+    pub gradient_stops: u32,
+    /// Vertices of a mesh: a file of a few bytes can claim billions.
+    pub mesh_vertices: u32,
+    /// Triangles of a mesh.
+    pub mesh_triangles: u32,
+    /// Points of a value of kind points.
+    pub points: u32,
+    /// Strands of a value of kind strands.
+    pub strands: u32,
+    /// Points of all strands of a value together.
+    pub strand_points: u32,
+    /// Streams of one value: what looks for an id walks them.
+    pub streams: u32,
 }
 
 impl Default for Limits {
@@ -41,6 +55,13 @@ impl Default for Limits {
             memory_bytes: 4 << 30,
             read_bytes: 256 << 20,
             text_symbols: 16 << 20,
+            gradient_stops: 65_536,
+            mesh_vertices: 16 << 20,
+            mesh_triangles: 32 << 20,
+            points: 64 << 20,
+            strands: 64 << 20,
+            strand_points: 256 << 20,
+            streams: 32,
         }
     }
 }

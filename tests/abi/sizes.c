@@ -13,7 +13,14 @@ int main(void)
     CHECK(ptl_abi_sizeof(PTL_STRUCT_PARAM_INFO) == sizeof(ptl_param_info));
     CHECK(ptl_abi_sizeof(PTL_STRUCT_PORT_INFO) == sizeof(ptl_port_info));
     CHECK(ptl_abi_sizeof(PTL_STRUCT_FAULT) == sizeof(ptl_fault));
+    CHECK(ptl_abi_sizeof(PTL_STRUCT_STREAM) == sizeof(ptl_stream));
+    CHECK(ptl_abi_sizeof(PTL_STRUCT_MESH_DATA) == sizeof(ptl_mesh_data));
+    CHECK(ptl_abi_sizeof(PTL_STRUCT_POINTS_DATA) == sizeof(ptl_points_data));
+    CHECK(ptl_abi_sizeof(PTL_STRUCT_STRANDS_DATA) == sizeof(ptl_strands_data));
+    CHECK(ptl_abi_sizeof(PTL_STRUCT_GRADIENT_DATA) == sizeof(ptl_gradient_data));
+    CHECK(ptl_abi_sizeof(PTL_STRUCT_TEXT_DATA) == sizeof(ptl_text_data));
+    CHECK(ptl_abi_sizeof(PTL_STRUCT_IMAGE_DATA) == sizeof(ptl_image_data));
     CHECK(ptl_abi_sizeof(PTL_STRUCT_SCAN_REPORT) == sizeof(ptl_scan_report));
-    CHECK(ptl_abi_sizeof(0) == 0 && ptl_abi_sizeof(10) == 0);
+    CHECK(ptl_abi_sizeof(0) == 0 && ptl_abi_sizeof(17) == 0);
     return 0;
 }

@@ -18,7 +18,7 @@
 template <typename T> constexpr bool moves_only = std::is_nothrow_move_constructible_v<T> &&
                                                   !std::is_copy_constructible_v<T>;
 static_assert(moves_only<ptlib::engine> && moves_only<ptlib::graph> && moves_only<ptlib::image>);
-static_assert(moves_only<ptlib::job> && moves_only<ptlib::cancel>);
+static_assert(moves_only<ptlib::value> && moves_only<ptlib::job> && moves_only<ptlib::cancel>);
 
 // What a callback throws, to be known again.
 struct enough {
@@ -47,6 +47,63 @@ static void errors(ptlib::graph &graph, ptl_block block)
     ptl_block stale = graph.add("end");
     graph.remove(stale);
     CHECK(thrown<ptlib::error>([&] { graph.validate(stale); }).status() == PTL_E_STALE_HANDLE);
+}
+
+// Two points, one at `x`.
+static void values(ptlib::graph &graph)
+{
+    float places[2][3] = {{0, 0, 0}, {7, 0, 0}};
+    ptl_stream stream = {};
+    stream.struct_size = sizeof stream;
+    stream.type = PTL_STREAM_F32;
+    stream.components = 3;
+    stream.id = "position";
+    stream.data = places;
+    stream.stride = sizeof *places;
+    const ptl_stream *const streams[] = {&stream};
+    ptl_points_data points = {};
+    points.struct_size = sizeof points;
+    points.point_count = 2;
+    points.stream_count = 1;
+    points.streams = streams;
+
+    int released = 0;
+    {
+        const auto lent = ptlib::value::borrow(points, [&] { released++; });
+        CHECK(lent.kind() == PTL_KIND_POINTS && lent.points().bounds_max[0] == 7);
+        CHECK(lent.retain().points().streams[0]->data == places && released == 0);
+        CHECK(thrown<ptlib::error>([&] { lent.mesh(); }).status() == PTL_E_TYPE_MISMATCH);
+        const ptl_block input = graph.add("points input");
+        CHECK(graph.find_input("points") == input && graph.find_input("other") == 0);
+        graph.set_input(input, lent);
+        CHECK(graph.compute_value(input).points().streams[0]->data == places);
+        graph.clear_input(input);
+        CHECK(thrown<ptlib::error>([&] { graph.compute_value(input); }).status() ==
+              PTL_E_UNCONNECTED);
+        graph.remove(input);
+    }
+    CHECK(released == 1);
+    points.point_count = 3000000000u;
+    thrown<ptlib::error>([&] { ptlib::value::borrow(points, [&] { released++; }); });
+    CHECK(released == 2);
+
+    CHECK(ptlib::value("D(10)").text() == "D(10)" && ptlib::value("").text().empty());
+    const ptl_gradient_stop stop = {0.5f, {0, 0, 1}};
+    CHECK(ptlib::value(ptl_gradient_data{sizeof(ptl_gradient_data), 1, &stop}).gradient().stops[0]
+              .color[2] == 1);
+    const float pixel = 0.25f;
+    ptl_image_data image = {};
+    image.struct_size = sizeof image;
+    image.format = PTL_FORMAT_GREY_F32;
+    image.width = image.height = 1;
+    image.pixels = &pixel;
+    CHECK(ptlib::value(image).image().pixels_as<float>()[0] == pixel);
+    ptl_strands_data strands = {};
+    strands.struct_size = sizeof strands;
+    strands.point_streams = streams;
+    strands.point_stream_count = 1;
+    stream.data = nullptr;
+    CHECK(ptlib::value(strands).strands().strand_count == 0);
 }
 
 static void pixels(const ptlib::graph &graph, ptl_block block)
@@ -132,6 +189,7 @@ int main()
     ptlib::graph graph = engine.new_graph();
     const ptl_block block = graph.add("test parameters");
     errors(graph, block);
+    values(graph);
     pixels(graph, block);
     callbacks(graph);
     graph.set_text(block, "look", "colour");

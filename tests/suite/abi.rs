@@ -14,8 +14,16 @@ use std::{
 };
 
 /// Programs that end with 0 if everything is as it should be.
-const PROGRAMS: [&str; 7] =
-    ["sizes.c", "misuse.c", "lifecycle.c", "compute.c", "threads.c", "panic.c", "wrapper.cpp"];
+const PROGRAMS: [&str; 8] = [
+    "sizes.c",
+    "misuse.c",
+    "lifecycle.c",
+    "compute.c",
+    "values.c",
+    "threads.c",
+    "panic.c",
+    "wrapper.cpp",
+];
 
 /// What a program may not do, not even under its breath.
 const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-pedantic-errors", "-Werror", "-g"];

@@ -95,7 +95,9 @@ fn hash(value: &Value) -> String {
         Value::Text(text) => {
             hasher.update(text.as_bytes());
         }
-        other => panic!("no hash for values of kind {}", other.kind().name()),
+        other => {
+            hasher.update(other.content().as_bytes());
+        }
     }
     hasher.finalize().to_hex()[..32].to_owned()
 }

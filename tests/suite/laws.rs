@@ -8,7 +8,7 @@ use ptlib::{
     value::{Kind, Value},
 };
 
-use crate::specimen::{Specimen, engine};
+use crate::specimen::{Specimen, dispensable_inputs, engine};
 
 const PRECISIONS: [Precision; 2] = [Precision::Float, Precision::EightBit];
 
@@ -317,7 +317,7 @@ fn the_seed_changes_what_it_is_said_to_change() {
         let image = |seed| {
             let mut specimen = Specimen::new(&engine, spec, 32, 32);
             // What an input may bring, a block may draw itself.
-            for (port, _) in (0..).zip(spec.about.inputs).filter(|(_, input)| input.is_optional) {
+            for port in dispensable_inputs(spec) {
                 specimen.graph.disconnect(specimen.block, port).expect("it is declared");
             }
             specimen.graph.set_block_seed(specimen.block, Some(seed)).expect("it is there");

@@ -8,6 +8,7 @@ mod frozen;
 mod golden;
 mod hostile;
 mod hostile_laws;
+mod inputs;
 mod laws;
 mod picture;
 #[cfg(target_os = "linux")]

@@ -8,7 +8,7 @@ use ptlib::{
     value::Value,
 };
 
-use crate::specimen::{Specimen, engine};
+use crate::specimen::{Specimen, dispensable_inputs, engine};
 
 /// Width and height of the small image.
 const SMALL: u32 = 128;
@@ -90,7 +90,7 @@ fn specimen(engine: &Engine, spec: &'static BlockSpec) -> Specimen {
 /// its choices, all but numbers and texts.
 fn cases(engine: &Engine, spec: &'static BlockSpec) -> Vec<(String, Specimen)> {
     let mut cases = vec![("at defaults".to_owned(), specimen(engine, spec))];
-    for (port, _) in (0..).zip(spec.about.inputs).filter(|(_, input)| input.is_optional) {
+    for port in dispensable_inputs(spec) {
         let mut case = specimen(engine, spec);
         case.graph.disconnect(case.block, port).expect("it is declared");
         cases.push((format!("without input {port}"), case));

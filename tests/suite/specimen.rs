@@ -1,10 +1,10 @@
 //! Every block of the registry in a graph of its own, for tests that walk the registry.
 
 use ptlib::{
-    BlockId, Engine, EngineOptions, Graph, Precision,
-    block::BlockSpec,
+    BlockId, Engine, EngineOptions, Graph, Limits, Precision,
+    block::{BlockSpec, Role},
     params::{FileUse, ParamKind, ParamValue},
-    value::Kind,
+    value::{Draft, Kind, StreamPlan, StreamShape, Value, WordsPlan},
 };
 
 use crate::picture::folder;
@@ -36,6 +36,11 @@ impl Specimen {
                 graph.set(block, param, path).expect("a path takes any text");
             }
         }
+        if spec.about.role == Role::Input
+            && let Some(value) = value_of(spec.about.outputs[0].kind)
+        {
+            graph.set_input(block, Some(value)).expect("a value of its kind");
+        }
         for (port, input) in (0..).zip(spec.about.inputs) {
             let source = match input.kind {
                 Kind::Image if port % 2 == 0 => colour(&mut graph, u64::from(port)),
@@ -44,7 +49,7 @@ impl Specimen {
                 // A text would replace what the block makes by itself.
                 Kind::Text if input.is_optional => continue,
                 Kind::Text => text(&mut graph),
-                kind => panic!("no specimen for inputs of kind {}", kind.name()),
+                kind => given(&mut graph, kind),
             };
             graph.connect(source, 0, block, port).expect("the kinds agree");
         }
@@ -78,6 +83,13 @@ impl Specimen {
     }
 }
 
+/// The inputs without which the block works: not the default of an input of the graph, whose value
+/// nobody sets here.
+pub fn dispensable_inputs(spec: &BlockSpec) -> Vec<u32> {
+    let inputs = (0..).zip(spec.about.inputs).filter(|(_, input)| input.is_optional);
+    inputs.filter(|_| spec.about.role != Role::Input).map(|(port, _)| port).collect()
+}
+
 fn grey(graph: &mut Graph, seed: u64) -> BlockId {
     let noise = graph.add("perlin noise").expect("built in");
     graph.set_block_seed(noise, Some(seed)).expect("just added");
@@ -89,6 +101,46 @@ fn gradient(graph: &mut Graph) -> BlockId {
     let stops = "0 10 0 60;90 200 40 20;160 240 200 60;255 250 255 255";
     graph.set_text(gradient, "data", stops).expect("a text");
     gradient
+}
+
+/// An input of the graph with a value of that kind.
+fn given(graph: &mut Graph, kind: Kind) -> BlockId {
+    let input = graph.add(&format!("{} input", kind.name())).expect("built in");
+    let value = value_of(kind).unwrap_or_else(|| panic!("no specimen of kind {}", kind.name()));
+    graph.set_input(input, Some(value)).expect("a value of its kind");
+    input
+}
+
+/// Something of a kind that no block makes out of nothing.
+fn value_of(kind: Kind) -> Option<Value> {
+    let limits = Limits::default();
+    let streams = || {
+        vec![
+            StreamPlan::New(StreamShape::floats("position", 3)),
+            StreamPlan::New(StreamShape::floats("texcoord", 2)),
+        ]
+    };
+    let draft = match kind {
+        Kind::Text => return Some(Value::from("D(0.1)R(60)D(0.2)".to_owned())),
+        Kind::Points => Draft::points(4, streams(), &limits),
+        Kind::Mesh => Draft::mesh(4, WordsPlan::New(6), streams(), &limits),
+        Kind::Strands => Draft::strands(4, WordsPlan::New(2), streams(), vec![], &limits),
+        _ => return None,
+    };
+    let mut draft = draft.expect("within the limits");
+    if let Some(numbers) = draft.numbers_mut() {
+        let square = [0, 1, 2, 2, 1, 3];
+        let strand = [0, 4];
+        numbers.copy_from_slice(if kind == Kind::Mesh { &square } else { &strand });
+    }
+    let corners = [[0.0_f32, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    for (place, components) in [(0, 3), (1, 2)] {
+        let numbers = draft.stream_mut(place).expect("new").chunks_exact_mut(components);
+        for (element, corner) in numbers.zip(corners) {
+            (element[0], element[1]) = (corner[0].to_bits(), corner[1].to_bits());
+        }
+    }
+    Some(draft.finish(&limits).expect("a right value"))
 }
 
 fn text(graph: &mut Graph) -> BlockId {

@@ -9,7 +9,7 @@ use std::{fs, path::PathBuf};
 use crate::{Result, repository};
 
 /// The sources, in the order in which the header explains things.
-const SOURCES: [&str; 17] = [
+const SOURCES: [&str; 19] = [
     "status",
     "types",
     "version",
@@ -26,6 +26,8 @@ const SOURCES: [&str; 17] = [
     "job",
     "cancel",
     "image",
+    "value",
+    "graph_values",
     "bytes",
 ];
 

@@ -1,6 +1,6 @@
 //! The arguments of `ptc render`, and what they mean to the engine.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, str::FromStr};
 
 use clap::ValueEnum;
 use ptlib::{Cancel, ComputeOptions, EngineOptions, Graph, Precision, io::BitDepth};
@@ -24,7 +24,8 @@ Output names:
 Examples:
   ptc render lava.xml -o lava.png --size 2048
   ptc render textures/*.xml -o 'out/{name}.png' --size 512 --supersampling 2
-  ptc render rock.xml -o 'rock-{block}.exr' --all-results --precision float";
+  ptc render rock.xml -o 'rock-{block}.exr' --all-results --precision float
+  ptc render old.xml -o old.png --input photo=face.png";
 
 /// The command's arguments.
 #[derive(Debug, clap::Args)]
@@ -66,6 +67,10 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_enum, default_value = "8")]
     bits: Bits,
 
+    /// Give an input of the graph its value: a picture, or a text; may be repeated
+    #[arg(long = "input", value_name = "NAME=FILE")]
+    pub(super) inputs: Vec<InputFile>,
+
     /// Let blocks read files below this folder, besides the graph's own
     #[arg(long, value_name = "DIR")]
     allow_read: Vec<PathBuf>,
@@ -93,6 +98,26 @@ pub(crate) struct RenderArguments {
     /// Show how long each graph took
     #[arg(long, conflicts_with = "quiet")]
     pub(super) timing: bool,
+}
+
+/// An input of the graph by name, and the file that its value comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct InputFile {
+    pub(super) name: String,
+    pub(super) path: PathBuf,
+}
+
+impl FromStr for InputFile {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, &'static str> {
+        match text.split_once('=') {
+            Some((name, path)) if !path.is_empty() => {
+                Ok(Self { name: name.to_owned(), path: path.into() })
+            }
+            _ => Err("an input is the name of one, '=' and a file: photo=face.png"),
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -187,6 +212,15 @@ mod tests {
         let help = memory.unwrap().get_help().unwrap().to_string();
         let Bytes(told) = help.split("default: ").nth(1).unwrap()[..2].parse().unwrap();
         assert_eq!(told, EngineOptions::default().limits.memory_bytes);
+    }
+
+    #[test]
+    fn an_input_has_a_name_and_a_file() {
+        let given = arguments("render a.xml -o a.png --input photo=a=b.png --input =x.txt");
+        let names: Vec<_> = given.inputs.iter().map(|input| &*input.name).collect();
+        assert_eq!(names, ["photo", ""]);
+        assert_eq!(given.inputs[0].path, PathBuf::from("a=b.png"));
+        assert!("photo".parse::<InputFile>().is_err() && "photo=".parse::<InputFile>().is_err());
     }
 
     #[test]

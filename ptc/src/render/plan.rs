@@ -6,9 +6,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use ptlib::{BlockId, Engine, Error, ErrorKind, Graph, Reading};
+use ptlib::{BlockId, Engine, Error, ErrorKind, Graph, Reading, io::read_value};
 
-use super::RenderArguments;
+use super::{RenderArguments, arguments::InputFile};
 use crate::{
     exit::Fault,
     finding::{Finding, Severity, findings},
@@ -61,11 +61,16 @@ fn job<'a>(
     path: &'a Path,
 ) -> (Option<Job<'a>>, Vec<Finding>) {
     let started = Instant::now();
-    let Reading { graph, warnings } = match engine.open_graph(path) {
+    let Reading { mut graph, warnings } = match engine.open_graph(path) {
         Ok(reading) => reading,
         Err(error) => return (None, findings(&[], &[error])),
     };
     let reading = started.elapsed();
+    let faults: Vec<_> =
+        arguments.inputs.iter().filter_map(|input| give(engine, &mut graph, input).err()).collect();
+    if !faults.is_empty() {
+        return (None, findings(&warnings, &faults));
+    }
     match targets(arguments, path, &graph) {
         Ok(targets) => {
             let job = Job { path, graph, targets, reading };
@@ -73,6 +78,24 @@ fn job<'a>(
             (Some(job), findings(&warnings, &faults))
         }
         Err(error) => (None, findings(&warnings, &[error])),
+    }
+}
+
+/// Sets an input of a graph.
+fn give(engine: &Engine, graph: &mut Graph, input: &InputFile) -> Result<(), Error> {
+    let block = graph.find_input(&input.name).ok_or_else(|| no_input(graph, &input.name))?;
+    let kind = graph.known(block)?.about.outputs[0].kind;
+    let value = read_value(&input.path, kind, engine.limits())?;
+    graph.set_input(block, Some(value))
+}
+
+fn no_input(graph: &Graph, name: &str) -> Error {
+    let message = format!("the graph has no input \"{name}\"");
+    let names: Vec<_> = graph.inputs().map(|(_, name)| format!("\"{name}\"")).collect();
+    let error = Error::new(ErrorKind::NotFound, message);
+    match names.is_empty() {
+        true => error.with_hint("it has none"),
+        false => error.with_hint(format!("its inputs are {}", names.join(", "))),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::{
     error::{Error, ErrorKind},
     limits::Limits,
     math::simd::SimdLevel,
-    value::{BufferPool, Gradient, Image, Value},
+    value::{BufferPool, Gradient, Image, Mesh, Points, Strands, Value},
 };
 
 /// Where a row (or a part of one) lies.
@@ -115,6 +115,8 @@ pub struct Context<'a> {
     pub(crate) inputs: &'a [Option<Value>],
     /// For each input, whether it is there: as a value above, or as rows.
     pub(crate) connected: &'a [bool],
+    /// What the caller of the graph set, if the block is an input of the graph.
+    pub(crate) given: Option<&'a Value>,
     pub(crate) pool: &'a Arc<BufferPool>,
     pub(crate) files: &'a dyn Files,
     pub(crate) progress: &'a dyn Progress,
@@ -179,6 +181,55 @@ impl<'a> Context<'a> {
             Some(Some(Value::Text(text))) => Ok(text),
             _ => Err(self.missing(port, "a text")),
         }
+    }
+
+    /// The points at input `port`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unconnected`] if there are none.
+    pub fn points(&self, port: usize) -> Result<&'a Points, Error> {
+        match self.inputs.get(port) {
+            Some(Some(Value::Points(points))) => Ok(points),
+            _ => Err(self.missing(port, "points")),
+        }
+    }
+
+    /// The mesh at input `port`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unconnected`] if there is none.
+    pub fn mesh(&self, port: usize) -> Result<&'a Mesh, Error> {
+        match self.inputs.get(port) {
+            Some(Some(Value::Mesh(mesh))) => Ok(mesh),
+            _ => Err(self.missing(port, "a mesh")),
+        }
+    }
+
+    /// The strands at input `port`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unconnected`] if there are none.
+    pub fn strands(&self, port: usize) -> Result<&'a Strands, Error> {
+        match self.inputs.get(port) {
+            Some(Some(Value::Strands(strands))) => Ok(strands),
+            _ => Err(self.missing(port, "strands")),
+        }
+    }
+
+    /// The value that the caller of the graph set, for a block of role
+    /// [`Input`](super::Role::Input).
+    #[must_use]
+    pub fn given(&self) -> Option<&'a Value> {
+        self.given
+    }
+
+    /// The value that the caller of the graph set, otherwise that at input `port`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unconnected`] if there is neither.
+    pub fn given_or(&self, port: usize) -> Result<&'a Value, Error> {
+        let connected = || self.inputs.get(port)?.as_ref();
+        self.given.or_else(connected).ok_or_else(|| self.missing(port, "a value"))
     }
 
     fn missing(&self, port: usize, what: &str) -> Error {

@@ -12,7 +12,7 @@ pub use crate::{
     math::{convert, decimal, elementary, elias, levels, levels::Levels, ray, simd::Kernel},
     params,
     value::{
-        Axis, Gradient, GradientStop, Image, Kind, Plane, Resampling, Span, Value, box_sum,
-        byte_list, fill,
+        Axis, Gradient, GradientStop, Image, Kind, Mesh, Plane, Points, Resampling, Span, Strands,
+        Stream, Value, box_sum, byte_list, fill,
     },
 };

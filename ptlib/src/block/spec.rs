@@ -151,6 +151,10 @@ pub enum Role {
     Result,
     /// It writes a file: only when the caller asks for that.
     Writer,
+    /// The caller of the graph sets its one output, see
+    /// [`Graph::set_input`](crate::graph::Graph::set_input). Its text parameter `name` is what the
+    /// caller finds it by.
+    Input,
 }
 
 /// What a block type is, apart from its parameters.

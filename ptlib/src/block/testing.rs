@@ -11,8 +11,39 @@ use crate::{
     limits::Limits,
     math::{levels::Precision, simd::SimdLevel},
     params::ParamValue,
-    value::{BufferPool, Image, MAX_PLANES, Value},
+    value::{BufferPool, Draft, Image, MAX_PLANES, StreamPlan, StreamShape, Value, WordsPlan},
 };
+
+/// A triangle with a corner at (size, 0, 0).
+pub(crate) fn mesh(size: f32) -> Value {
+    let (draft, limits) = draft(size, |plan, limits| {
+        Draft::mesh(3, WordsPlan::New(3), plan, limits).expect("within the limits")
+    });
+    draft.finish(&limits).expect("a right mesh")
+}
+
+/// Three points, one at (size, 0, 0).
+pub(crate) fn points(size: f32) -> Value {
+    let (draft, limits) =
+        draft(size, |plan, limits| Draft::points(3, plan, limits).expect("within the limits"));
+    draft.finish(&limits).expect("right points")
+}
+
+/// One strand of three points, one at (size, 0, 0).
+pub(crate) fn strands(size: f32) -> Value {
+    let (mut draft, limits) = draft(size, |plan, limits| {
+        Draft::strands(3, WordsPlan::New(2), plan, vec![], limits).expect("within the limits")
+    });
+    draft.numbers_mut().expect("new")[1] = 3;
+    draft.finish(&limits).expect("right strands")
+}
+
+fn draft(size: f32, make: impl Fn(Vec<StreamPlan>, &Limits) -> Draft) -> (Draft, Limits) {
+    let limits = Limits::default();
+    let mut draft = make(vec![StreamPlan::New(StreamShape::floats("position", 3))], &limits);
+    draft.stream_mut(0).expect("new")[3] = size.to_bits();
+    (draft, limits)
+}
 
 /// One computation of one block: `Trial::of(&BLOCK).size(8, 4).int("amplitude", 3).image()`.
 /// Starts from the block's defaults, 64 × 64 pixels, seed 0, float precision.
@@ -28,6 +59,7 @@ pub(crate) struct Trial {
     simd: SimdLevel,
     piece: usize,
     files: OneFile,
+    given: Option<Value>,
     limits: Limits,
 }
 
@@ -44,6 +76,7 @@ impl Trial {
             simd: SimdLevel::best(),
             piece: usize::MAX,
             files: OneFile(None),
+            given: None,
             limits: Limits::default(),
         }
     }
@@ -77,6 +110,12 @@ impl Trial {
 
     pub(crate) fn input(mut self, port: usize, value: impl Into<Value>) -> Self {
         self.inputs[port] = Some(value.into());
+        self
+    }
+
+    /// What the caller of the graph sets.
+    pub(crate) fn given(mut self, value: impl Into<Value>) -> Self {
+        self.given = Some(value.into());
         self
     }
 
@@ -179,7 +218,10 @@ impl Trial {
             for (value, port) in values.iter_mut().zip(self.spec.about.outputs) {
                 if let Value::Image(image) = value {
                     let store = Store::of(self.precision, port.is_free);
-                    image.planes_mut().for_each(|plane| _ = store.apply(self.simd, plane));
+                    *image = image.clone().map_planes(&BufferPool::new(), |plane| {
+                        store.apply(self.simd, plane);
+                        Ok(())
+                    })?;
                 }
             }
         }
@@ -207,6 +249,7 @@ impl Trial {
             simd: self.simd,
             inputs: &inputs,
             connected: &connected,
+            given: self.given.as_ref(),
             pool: &BufferPool::new(),
             files: &self.files,
             progress: &Alone,

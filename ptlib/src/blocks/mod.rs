@@ -6,6 +6,7 @@ mod color;
 mod drawing;
 mod files;
 mod filter;
+mod inputs;
 mod light;
 mod mix;
 mod noise;
@@ -25,6 +26,7 @@ pub static FAMILIES: &[&Family] = &[
     &drawing::FAMILY,
     &files::FAMILY,
     &filter::FAMILY,
+    &inputs::FAMILY,
     &light::FAMILY,
     &mix::FAMILY,
     &noise::FAMILY,

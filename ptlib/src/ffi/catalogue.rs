@@ -8,10 +8,10 @@ use std::{
 };
 
 use super::{
-    PTL_BLOCK_IS_RESULT, PTL_BLOCK_TILES, PTL_BLOCK_USES_SEED, PTL_BLOCK_WRITES_FILE,
-    PTL_PARAM_CHOICE, PTL_PARAM_FLAG, PTL_PARAM_FLOAT, PTL_PARAM_INT, PTL_PARAM_PATH,
-    PTL_PARAM_READS_FILE, PTL_PARAM_TEXT, PTL_PARAM_WRITES_FILE, PTL_PORT_FREE_RANGE,
-    PTL_PORT_OPTIONAL,
+    PTL_BLOCK_IS_INPUT, PTL_BLOCK_IS_RESULT, PTL_BLOCK_TILES, PTL_BLOCK_USES_SEED,
+    PTL_BLOCK_WRITES_FILE, PTL_PARAM_CHOICE, PTL_PARAM_FLAG, PTL_PARAM_FLOAT, PTL_PARAM_INT,
+    PTL_PARAM_PATH, PTL_PARAM_READS_FILE, PTL_PARAM_TEXT, PTL_PARAM_WRITES_FILE,
+    PTL_PORT_FREE_RANGE, PTL_PORT_OPTIONAL,
     fault::c_string,
     handle::{Tagged, tagged},
     ptl_block_type, ptl_param_info, ptl_port_info,
@@ -129,6 +129,7 @@ impl BlockTypeObject {
         let flags = [
             (about.role == Role::Result, PTL_BLOCK_IS_RESULT),
             (about.role == Role::Writer, PTL_BLOCK_WRITES_FILE),
+            (about.role == Role::Input, PTL_BLOCK_IS_INPUT),
             (about.uses_seed, PTL_BLOCK_USES_SEED),
             (about.tiling == Tiling::Always, PTL_BLOCK_TILES),
         ];

@@ -19,7 +19,7 @@ use crate::{
     graph::{BlockId, Graph},
     math::levels::Precision,
     run::{Cancel, ComputeOptions, PixelsMut, ProgressFn, ProgressReport},
-    value::Format,
+    value::{Format, Value},
 };
 
 /// A computation as the caller asked for it, with a graph of its own.
@@ -221,6 +221,14 @@ impl Request {
             None => self.automatic(image.planes())?,
         };
         ImageObject::new(image, format)
+    }
+
+    /// The value, whatever its kind.
+    pub(super) fn value(&self) -> Result<Value, Error> {
+        let mut tell = self.settings.callback.map(teller);
+        let tell = tell.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
+        let options = self.settings.to_options(self.settings.cancel.clone(), tell);
+        self.engine.engine.compute_value(&self.graph, self.block, self.output, options)
     }
 
     /// PTL_FORMAT_AUTO for an output of that many planes.

@@ -45,7 +45,14 @@ pub unsafe extern "C" fn ptl_graph_remove_block(
     error: *mut *mut ptl_error,
 ) -> ptl_status {
     pt_fn!(error; graph: Handle<ptl_graph> => {
-        graph.edit()?.graph.remove(BlockId::from_raw(block))
+        let id = BlockId::from_raw(block);
+        let mut edit = graph.edit()?;
+        // Its value may tell its owner that it is free: not while the graph is locked.
+        let old = edit.graph.input_value(id).cloned();
+        let result = edit.graph.remove(id);
+        drop(edit);
+        drop(old);
+        result
     })
 }
 

@@ -49,13 +49,6 @@ pub const PTL_COLOR_SPACE_SRGB: u32 = 1;
 /// The first row is the top one.
 pub const PTL_ORIGIN_TOP_LEFT: u32 = 1;
 
-/// A port takes or gives an image.
-pub const PTL_KIND_IMAGE: u32 = 1;
-/// A port takes or gives a colour transition.
-pub const PTL_KIND_GRADIENT: u32 = 2;
-/// A port takes or gives a text, such as the string of an L-system.
-pub const PTL_KIND_TEXT: u32 = 3;
-
 /// A whole number.
 pub const PTL_PARAM_INT: u32 = 1;
 /// A number.
@@ -87,9 +80,14 @@ pub const PTL_BLOCK_WRITES_FILE: u32 = 2;
 pub const PTL_BLOCK_USES_SEED: u32 = 4;
 /// Of a block type: its output always tiles when its inputs do.
 pub const PTL_BLOCK_TILES: u32 = 8;
+/// Of a block type: its value is set by ptl_graph_set_input().
+pub const PTL_BLOCK_IS_INPUT: u32 = 16;
 
 /// In engine options: results are not kept for later computations.
 pub const PTL_ENGINE_NO_CACHE: u32 = 1;
+
+/// For ptl_value_from_mesh() and its kin: the data stays the caller's.
+pub const PTL_VALUE_BORROW: u32 = 1;
 
 /// In compute options: `seed` counts, also if it is 0.
 pub const PTL_COMPUTE_SEED: u32 = 1;
@@ -398,8 +396,22 @@ pub const PTL_STRUCT_PARAM_INFO: u32 = 6;
 pub const PTL_STRUCT_PORT_INFO: u32 = 7;
 /// For ptl_abi_sizeof(): ptl_fault.
 pub const PTL_STRUCT_FAULT: u32 = 8;
+/// For ptl_abi_sizeof(): ptl_stream.
+pub const PTL_STRUCT_STREAM: u32 = 9;
+/// For ptl_abi_sizeof(): ptl_mesh_data.
+pub const PTL_STRUCT_MESH_DATA: u32 = 10;
+/// For ptl_abi_sizeof(): ptl_points_data.
+pub const PTL_STRUCT_POINTS_DATA: u32 = 11;
+/// For ptl_abi_sizeof(): ptl_strands_data.
+pub const PTL_STRUCT_STRANDS_DATA: u32 = 12;
+/// For ptl_abi_sizeof(): ptl_gradient_data.
+pub const PTL_STRUCT_GRADIENT_DATA: u32 = 13;
+/// For ptl_abi_sizeof(): ptl_text_data.
+pub const PTL_STRUCT_TEXT_DATA: u32 = 14;
+/// For ptl_abi_sizeof(): ptl_image_data.
+pub const PTL_STRUCT_IMAGE_DATA: u32 = 15;
 /// For ptl_abi_sizeof(): ptl_scan_report.
-pub const PTL_STRUCT_SCAN_REPORT: u32 = 9;
+pub const PTL_STRUCT_SCAN_REPORT: u32 = 16;
 
 // SAFETY: as the head of this file says; `abi_sizes_are_stable` adds up the fields.
 unsafe impl CStruct for ptl_progress {

@@ -2,6 +2,8 @@
 
 use std::ffi::c_char;
 
+use ptlib_plugin_abi::values;
+
 use super::types::*;
 
 /// The version of the header's functions and structs. A library serves every program that was
@@ -72,6 +74,13 @@ pub extern "C" fn ptl_abi_sizeof(struct_id: u32) -> usize {
         PTL_STRUCT_PARAM_INFO => size_of::<ptl_param_info>(),
         PTL_STRUCT_PORT_INFO => size_of::<ptl_port_info>(),
         PTL_STRUCT_FAULT => size_of::<ptl_fault>(),
+        PTL_STRUCT_STREAM => size_of::<values::ptl_stream>(),
+        PTL_STRUCT_MESH_DATA => size_of::<values::ptl_mesh_data>(),
+        PTL_STRUCT_POINTS_DATA => size_of::<values::ptl_points_data>(),
+        PTL_STRUCT_STRANDS_DATA => size_of::<values::ptl_strands_data>(),
+        PTL_STRUCT_GRADIENT_DATA => size_of::<values::ptl_gradient_data>(),
+        PTL_STRUCT_TEXT_DATA => size_of::<values::ptl_text_data>(),
+        PTL_STRUCT_IMAGE_DATA => size_of::<values::ptl_image_data>(),
         PTL_STRUCT_SCAN_REPORT => size_of::<ptl_scan_report>(),
         _ => 0,
     })

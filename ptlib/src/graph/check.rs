@@ -31,9 +31,9 @@ impl Graph {
         let mut waiting = vec![block];
         while let Some(id) = waiting.pop() {
             if !std::mem::replace(&mut needed[id.index as usize], true)
-                && let Ok(block) = self.block(id)
+                && let Ok(sources) = self.sources_of(id)
             {
-                waiting.extend(block.inputs.iter().flatten().map(|source| source.block));
+                waiting.extend(sources);
             }
         }
         needed
@@ -46,7 +46,10 @@ impl Graph {
             Err(error) => return vec![error],
         };
         let Ok(block) = self.block(id) else { return vec![] };
-        let mut faults = Vec::new();
+        if self.given(id).is_some() {
+            return vec![];
+        }
+        let mut faults: Vec<Error> = self.missing_value(id).into_iter().collect();
         for (number, (port, source)) in (0..).zip(spec.about.inputs.iter().zip(&block.inputs)) {
             match source {
                 // A source of unknown type tells that itself; those who go on in spite of it read

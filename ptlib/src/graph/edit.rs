@@ -89,7 +89,7 @@ impl Graph {
                 place
             }
             None => {
-                data.slots.push(Slot { generation: 1, block });
+                data.slots.push(Slot { generation: 1, block, given: None });
                 data.slots.len() - 1
             }
         };
@@ -116,6 +116,7 @@ impl Graph {
         let data = Arc::make_mut(&mut self.data);
         let slot = &mut data.slots[id.index as usize];
         slot.block = None;
+        slot.given = None;
         slot.generation = slot.generation.wrapping_add(1);
         data.order.retain(|&index| index != id.index);
         for slot in &mut data.slots {
@@ -168,7 +169,7 @@ impl Graph {
     pub(super) fn check_source(&self, source: Source, target: BlockId) -> Result<(), Error> {
         let from = self.block(source.block)?;
         let to = self.block(target)?;
-        if from.spec.is_some_and(|spec| spec.about.role != Role::Inner) {
+        if from.has_role(Role::Result) || from.has_role(Role::Writer) {
             let message = format!("ends the graph: {} cannot read it", name(to));
             return Err(self.at(source.block, Error::new(ErrorKind::TypeMismatch, message)));
         }

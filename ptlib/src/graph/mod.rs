@@ -11,7 +11,9 @@
 mod check;
 mod connector;
 mod edit;
+mod input;
 mod model;
 
 pub(crate) use connector::Connector;
+pub(crate) use input::Given;
 pub use model::{Block, BlockId, Connection, Graph, Origin, RawParameter, Settings, Source};

@@ -6,6 +6,7 @@ use std::{
     sync::Arc,
 };
 
+use super::Given;
 use crate::{
     block::{BlockSpec, Registry, Role},
     error::{Error, ErrorKind},
@@ -219,6 +220,8 @@ pub(super) struct Slot {
     /// Odd while a block is here; counts up at each insertion and removal.
     pub(super) generation: u32,
     pub(super) block: Option<Arc<Block>>,
+    /// What the caller set for this block, if it is an input of the graph.
+    pub(super) given: Option<Arc<Given>>,
 }
 
 impl Graph {

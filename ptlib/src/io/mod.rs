@@ -2,10 +2,12 @@
 
 mod picture;
 mod policy;
+mod value;
 mod xml;
 
 pub use picture::{BitDepth, check_picture_name, save_image};
 pub(crate) use policy::{FileAccess, read_limited};
+pub use value::read_value;
 pub(crate) use xml::read_graph;
 pub use xml::{Reading, write_graph};
 

@@ -10,6 +10,9 @@
 //! Plug-ins are never unloaded (threads, thread-local destructors and texts of theirs may live on),
 //! so their tables are `'static`, and what is made of them is made once in a process and leaked.
 //!
+//! Values of other kinds than images pass the border through `import` (C structs from outside become
+//! checked values) and `view` (a value as C structs), which the C ABI uses too.
+//!
 //! Start reading at [`load`], then [`check`], then [`foreign`]. [`call`] is one call into a plug-in,
 //! [`host`] and [`services`] are what it may ask back.
 #![allow(unsafe_code, reason = "tables of plug-ins are pointers until they are checked")]
@@ -19,12 +22,14 @@ mod check;
 mod describe;
 mod foreign;
 mod host;
+pub(crate) mod import;
 mod library;
 mod load;
 pub mod probe;
 mod search;
 mod services;
 mod setup;
+pub(crate) mod view;
 mod wires;
 
 pub use search::{Scanned, search_folders};

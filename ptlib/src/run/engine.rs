@@ -309,7 +309,8 @@ impl Inner {
         let wanted = find_wanted(graph, &nodes, wanted)?;
         let handover = if target.is_some() { Handover::Rows } else { Handover::Value };
         let plan = Plan::new(nodes, wanted, settings.sizes, handover, &self.cache)?;
-        plan.check_memory(options.memory_bytes.unwrap_or(self.options.limits.memory_bytes))?;
+        let memory_bytes = options.memory_bytes.unwrap_or(self.options.limits.memory_bytes);
+        plan.check_memory(memory_bytes)?;
         let mut sinks = self.sinks(&plan, target)?;
         let first = plan.nodes[plan.wanted[0].node].id;
         // A closure of its own lets the monitor borrow it for as long as the locals live.
@@ -328,6 +329,7 @@ impl Inner {
             cache: &self.cache,
             monitor: &monitor,
             limits: &self.options.limits,
+            memory_bytes,
             log: &self.log,
             keep_going: options.keep_going,
             strip_rows: options.strip_rows,
@@ -413,7 +415,11 @@ fn collect(
         sink.into_image()
             .map(Value::Image)
             .or_else(stored)
-            .ok_or_else(|| Error::new(ErrorKind::Internal, "a wanted value was not computed"))
+            // Nothing like a white image stands for a gradient or a mesh.
+            .ok_or_else(|| match execution.failures.first() {
+                Some(failure) => failure.clone(),
+                None => Error::new(ErrorKind::Internal, "a wanted value was not computed"),
+            })
     };
     plan.wanted.iter().zip(sinks).map(value).collect()
 }

@@ -34,6 +34,8 @@ pub(super) struct Means<'a> {
     pub(super) cache: &'a Cache,
     pub(super) monitor: &'a Monitor<'a>,
     pub(super) limits: &'a Limits,
+    /// The most bytes that the computation may take at its peak.
+    pub(super) memory_bytes: u64,
     pub(super) log: &'a Log,
     pub(super) keep_going: bool,
     /// Rows of a task; 0 to choose.
@@ -65,6 +67,8 @@ pub(super) struct Execution<'a, 'g> {
     means: &'a Means<'a>,
     /// Per node and output.
     values: Vec<Vec<Option<Value>>>,
+    /// Per node, the bytes of its values that are no images: the plan could not know them.
+    unplanned: Vec<u64>,
     /// Faults that a white image stands for.
     pub(super) failures: Vec<Error>,
 }
@@ -76,10 +80,11 @@ impl<'a, 'g> Execution<'a, 'g> {
             _ => vec![None; node.outputs.len()],
         });
         let values = values.collect();
+        let unplanned = vec![0; plan.nodes.len()];
         for failure in &failures {
             means.tell_white(failure);
         }
-        Self { plan, means, values, failures }
+        Self { plan, means, values, unplanned, failures }
     }
 
     /// Computes everything; `sinks` has one sink for each wanted output of the plan.
@@ -99,6 +104,7 @@ impl<'a, 'g> Execution<'a, 'g> {
             self.keep(stage);
             for node in &stage.freed {
                 self.values[*node].fill(None);
+                self.unplanned[*node] = 0;
             }
         }
         self.means.monitor.finish()
@@ -117,7 +123,8 @@ impl<'a, 'g> Execution<'a, 'g> {
         }
         let key = &self.plan.nodes[stage.root].key;
         for (output, value) in self.values[stage.root].iter().enumerate() {
-            if let Some(value) = value {
+            // Somebody waits to get back what is borrowed.
+            if let Some(value) = value.as_ref().filter(|value| !value.is_borrowed()) {
                 self.means.cache.put(key.of_output(output, 1), value);
             }
         }
@@ -125,7 +132,7 @@ impl<'a, 'g> Execution<'a, 'g> {
 
     fn context<'b>(
         &'b self,
-        node: &Node<'_>,
+        node: &Node<'b>,
         inputs: &'b Inputs,
         tell: &'b (dyn Fn(LogLevel, Error) + Sync),
     ) -> Context<'b> {
@@ -137,6 +144,7 @@ impl<'a, 'g> Execution<'a, 'g> {
             simd: self.means.simd,
             inputs: &inputs.values,
             connected: &inputs.connected,
+            given: node.given.map(|given| &given.value),
             pool: self.means.pool,
             files: self.means.files,
             progress: self.means.monitor,
@@ -172,7 +180,8 @@ impl<'a, 'g> Execution<'a, 'g> {
         let cx = self.context(node, &inputs, &tell);
         let computed = guard(|| factory.compute(node.block.values(), self.means.precision, &cx));
         drop(inputs);
-        match computed.and_then(|values| self.check_outputs(node, values)) {
+        let counted = computed.and_then(|values| self.count(stage.root, values));
+        match counted.and_then(|values| self.check_outputs(node, values)) {
             Ok((values, strange)) => {
                 self.values[stage.root] = values.into_iter().map(Some).collect();
                 self.tell_strange(node, strange);
@@ -184,6 +193,29 @@ impl<'a, 'g> Execution<'a, 'g> {
         }
         self.means.monitor.add_units(stage.units);
         Ok(())
+    }
+
+    /// Counts the memory of values that are no images. What the caller gave is the caller's.
+    fn count(&mut self, node: usize, values: Vec<Value>) -> Result<Vec<Value>, Error> {
+        let others = values.iter().filter(|value| value.kind() != Kind::Image);
+        let bytes: u64 = others.map(Value::bytes).sum();
+        if bytes == 0 || self.plan.nodes[node].given.is_some() {
+            return Ok(values);
+        }
+        self.unplanned[node] = bytes;
+        let all = self.unplanned.iter().fold(self.plan.peak_bytes, |sum, b| sum.saturating_add(*b));
+        let (limit, mebibyte) = (self.means.memory_bytes, 1 << 20);
+        if all <= limit {
+            return Ok(values);
+        }
+        self.unplanned[node] = 0;
+        let message = format!(
+            "gives values of {} MiB; with all others that makes {} MiB, allowed {} MiB",
+            bytes.div_ceil(mebibyte),
+            all.div_ceil(mebibyte),
+            limit / mebibyte
+        );
+        Err(Error::new(ErrorKind::Limit, message))
     }
 
     /// Notes a failure, or ends the computation with it.
@@ -218,7 +250,7 @@ impl<'a, 'g> Execution<'a, 'g> {
             match output.kind {
                 Kind::Image => {}
                 Kind::Text => return Ok(Some(Value::Text("".into()))),
-                Kind::Gradient => return Ok(None),
+                Kind::Gradient | Kind::Points | Kind::Mesh | Kind::Strands => return Ok(None),
             }
             let mut image = Image::new(self.means.pool, width, height, output.planes)?;
             image.planes_mut().for_each(|plane| plane.fill(1.0));

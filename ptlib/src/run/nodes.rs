@@ -6,7 +6,7 @@ use super::key::Key;
 use crate::{
     block::{Access, Files, Implementation, Planes, RowFactory, WholeFactory},
     error::{Error, ErrorKind},
-    graph::{Block, BlockId, Graph},
+    graph::{Block, BlockId, Given, Graph},
     math::levels::Precision,
     params::{FileUse, ParamKind, ParamValue},
     value::{Kind, Value},
@@ -18,6 +18,8 @@ pub(super) struct Node<'g> {
     pub(super) id: BlockId,
     pub(super) block: &'g Block,
     pub(super) work: Work,
+    /// What the caller set for an input of the graph.
+    pub(super) given: Option<&'g Given>,
     pub(super) seed: u64,
     /// What each input is connected to; a connection of the wrong kind counts as none.
     pub(super) inputs: Vec<Option<Link>>,
@@ -160,8 +162,12 @@ fn resolve_one<'g>(
         id,
         block,
         work: Work::White,
+        given: graph.given(id),
         seed: block.seed().unwrap_or(purpose.seed),
-        inputs: links(block, nodes, places),
+        inputs: match graph.given(id) {
+            Some(_) => vec![None; block.inputs().len()],
+            None => links(block, nodes, places),
+        },
         outputs: vec![Output { kind: Kind::Image, planes: 1, is_free: false }],
         key: Key::of_failure(id.to_raw()),
         first_planes: 1,
@@ -183,7 +189,10 @@ fn resolve_one<'g>(
             .map(|port| Output {
                 kind: port.kind,
                 planes: match port.kind {
-                    Kind::Image => count_planes(port.planes, &planes, is_grey),
+                    Kind::Image => match node.given.map(|given| &given.value) {
+                        Some(Value::Image(image)) => image.planes(),
+                        _ => count_planes(port.planes, &planes, is_grey),
+                    },
                     _ => 0,
                 },
                 is_free: port.is_free,
@@ -254,6 +263,9 @@ fn key(
             key.bytes(&bytes);
         }
     }
+    if let Some(given) = node.given {
+        key.bytes(given.content.as_bytes());
+    }
     for link in &node.inputs {
         let input = link.map(|link| nodes[link.node].key.of_output(link.output, 1));
         key.key(input.as_ref());
@@ -280,9 +292,8 @@ fn topological_order(graph: &Graph, wanted: &[BlockId]) -> Result<Vec<BlockId>, 
                 }
                 None => {
                     is_done.insert(id, false);
-                    let sources = graph.block(id)?.inputs().iter().flatten();
-                    let unseen = sources.map(|source| source.block);
-                    waiting.extend(unseen.filter(|source| !is_done.contains_key(source)));
+                    let sources = graph.sources_of(id)?;
+                    waiting.extend(sources.filter(|source| !is_done.contains_key(source)));
                 }
             }
         }

@@ -1,7 +1,12 @@
 //! Pixels as other programs want them: interleaved, in the number format they asked for.
 
-use super::Image;
-use crate::math::convert::{to_byte, to_word};
+use std::sync::Arc;
+
+use super::{BufferPool, Image};
+use crate::{
+    error::{Error, ErrorKind},
+    math::convert::{to_byte, to_word},
+};
 
 /// How the pixels of a result are laid out: interleaved channels, rows from the top. The numbers
 /// are those of the C ABI: channels in the low byte, bytes per channel in the next, then whether
@@ -109,6 +114,22 @@ impl Format {
     }
 }
 
+impl Format {
+    /// Reads one channel of a row of pixels.
+    fn read_row(self, pixels: &[u8], channel: usize, targets: &mut [f32]) {
+        let size = self.bytes_per_channel();
+        let pixels = pixels.chunks_exact(self.bytes_per_pixel());
+        for (target, pixel) in targets.iter_mut().zip(pixels) {
+            *target = match pixel[channel * size..][..size] {
+                [byte] => f32::from(byte) / 255.0,
+                [a, b] => f32::from(u16::from_ne_bytes([a, b])) / 65535.0,
+                [a, b, c, d] => f32::from_ne_bytes([a, b, c, d]),
+                _ => 0.0,
+            };
+        }
+    }
+}
+
 /// A finished picture in one [`Format`]: rows follow each other without gaps.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pixels {
@@ -123,6 +144,55 @@ pub struct Pixels {
 }
 
 impl Image {
+    /// A picture of pixels in `format`: `bytes` are rows from the top, `stride` bytes from one to
+    /// the next. Integers become k/255 and k/65535.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BufferTooSmall`] if they are too few, [`ErrorKind::OutOfRange`] if a number is
+    /// not finite, [`ErrorKind::NoMemory`].
+    pub fn from_pixels(
+        pool: &Arc<BufferPool>,
+        (width, height): (u32, u32),
+        format: Format,
+        (bytes, stride): (&[u8], usize),
+    ) -> Result<Self, Error> {
+        let row = width as usize * format.bytes_per_pixel();
+        let needed = (height as usize)
+            .checked_sub(1)
+            .and_then(|rows| rows.checked_mul(stride)?.checked_add(row));
+        if stride < row || needed.is_none_or(|needed| needed > bytes.len()) {
+            let message = format!(
+                "{} bytes are given, rows of {stride}; too few for {width} × {height} of {row}",
+                bytes.len()
+            );
+            return Err(Error::new(ErrorKind::BufferTooSmall, message));
+        }
+        let mut image = Self::new(pool, width, height, format.channels())?;
+        for (channel, plane) in image.planes_mut().enumerate() {
+            let rows = plane.chunks_exact_mut((width as usize).max(1));
+            for (targets, pixels) in rows.zip(bytes.chunks(stride.max(1))) {
+                format.read_row(&pixels[..row], channel, targets);
+            }
+        }
+        image.check_finite()?;
+        Ok(image)
+    }
+
+    fn check_finite(&self) -> Result<(), Error> {
+        let planes = (0..self.planes()).map(|channel| self.channel(channel));
+        let numbers = planes.flat_map(|plane| plane.iter().enumerate());
+        let mut strange = numbers.filter(|(_, number)| !number.is_finite());
+        let Some((first, number)) = strange.next() else { return Ok(()) };
+        let width = self.width() as usize;
+        let message = format!(
+            "the pixel at ({}, {}) has {number}, allowed finite numbers; {} such numbers",
+            first % width,
+            first / width,
+            strange.count() + 1
+        );
+        Err(Error::new(ErrorKind::OutOfRange, message))
+    }
+
     /// The picture in `format`.
     #[must_use]
     pub fn to_pixels(&self, format: Format) -> Pixels {
@@ -157,6 +227,25 @@ mod tests {
             assert_eq!(number as usize & 0xff, format.channels());
             assert_eq!(number as usize >> 8 & 0xff, format.bytes_per_channel());
         }
+    }
+
+    #[test]
+    fn pixels_come_back_as_they_were() {
+        let pool = BufferPool::new();
+        let bytes: Vec<u8> = (0..28).map(|i| i * 9).collect();
+        for format in [Format::Grey8, Format::Rgb8, Format::Rgba8, Format::Rgb16] {
+            let (row, stride) = (2 * format.bytes_per_pixel(), 14);
+            let image = Image::from_pixels(&pool, (2, 2), format, (&bytes, stride)).unwrap();
+            assert_eq!(image.planes(), format.channels());
+            let expected = [&bytes[..row], &bytes[stride..stride + row]].concat();
+            assert_eq!(image.to_pixels(format).data, expected, "{format:?}");
+        }
+        let error = Image::from_pixels(&pool, (2, 3), Format::Grey8, (&bytes, 14)).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::BufferTooSmall);
+        let floats = [0.5, f32::NAN, 2.0, f32::INFINITY].map(f32::to_ne_bytes).concat();
+        let error = Image::from_pixels(&pool, (2, 2), Format::GreyF32, (&floats, 8)).unwrap_err();
+        let expected = "the pixel at (1, 0) has NaN, allowed finite numbers; 2 such numbers";
+        assert_eq!(error.to_string(), expected);
     }
 
     #[test]

@@ -123,7 +123,10 @@ fn leftovers(blocks: &[Block], pages: &BTreeMap<String, String>) -> Result<Vec<S
     Ok(files)
 }
 
-/// Whether there is something to see: results and files show what they are given.
+/// Whether there is something to see: results and files show what they are given, and some values
+/// are no pictures, nor does a block make one of them.
 fn has_pictures(block: &Block) -> bool {
-    block.role == Role::Inner
+    let shows = |kind: &str| matches!(kind, "image" | "gradient" | "text");
+    matches!(block.role, Role::Inner | Role::Input)
+        && block.outputs.first().is_some_and(|output| shows(&output.kind))
 }

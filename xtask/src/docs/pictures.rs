@@ -9,7 +9,7 @@ use std::{fs, path::Path, process::Command};
 
 use super::{
     PICTURES, has_pictures,
-    registry::{Block, Parameter, ParameterKind, value_in_files},
+    registry::{Block, Parameter, ParameterKind, Role, value_in_files},
     settings::{Setting, changes, settings},
 };
 use crate::{Result, process, repository};
@@ -143,7 +143,7 @@ impl Sketch {
             ("image", _) => self.grey(),
             ("gradient", _) => self.gradient(),
             // A text would replace what the block makes by itself.
-            ("text", _) if input.is_optional => return Ok(None),
+            ("text", _) if input.is_optional && block.role != Role::Input => return Ok(None),
             ("text", _) => self.text(),
             (kind, _) => return Err(format!("no picture for inputs of kind {kind}").into()),
         }))

@@ -31,6 +31,7 @@ pub(super) enum Role {
     Inner,
     Result,
     Writer,
+    Input,
 }
 
 /// An input; its place in the list is its slot.

@@ -13,7 +13,7 @@
 
 use serde_json::Value;
 
-use super::registry::{Block, Parameter, ParameterKind, Range};
+use super::registry::{Block, Parameter, ParameterKind, Range, Role};
 
 /// One of the settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,8 +34,12 @@ impl Setting {
     }
 }
 
-/// The settings that differ: a block whose parameters cannot be moved has its defaults alone.
+/// The settings that differ: a block whose parameters cannot be moved has its defaults alone, and
+/// so has an input of a graph, which gives what it is given.
 pub(super) fn settings(block: &Block) -> Vec<Setting> {
+    if block.role == Role::Input {
+        return vec![Setting::Default];
+    }
     let all = [Setting::Default, Setting::Lower, Setting::Higher].into_iter();
     all.filter(|&setting| setting == Setting::Default || !changes(block, setting).is_empty())
         .collect()

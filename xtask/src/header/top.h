@@ -12,7 +12,7 @@
  * error that tells more and that you release with ptl_error_release(). Other outputs are written as
  * the function says: handles become NULL on error, everything else stays untouched.
  *
- * Handles are opaque. Engines, graphs, images and cancel requests are reference counted:
+ * Handles are opaque. Engines, graphs, images, values and cancel requests are reference counted:
  * ptl_..._retain() adds a reference, ptl_..._release() gives one up. Errors, bytes and jobs have
  * one owner, who releases them. Every release takes NULL, on any thread and in any order: what is
  * still needed inside is kept alive. A handle must not be used after its last reference was
@@ -41,6 +41,8 @@
 
 #include <stddef.h>
 #include <stdint.h>
+
+#include "ptlib_values.h"
 
 #define PTL_VERSION_MAJOR @MAJOR@
 #define PTL_VERSION_MINOR @MINOR@

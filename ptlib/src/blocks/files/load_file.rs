@@ -24,9 +24,6 @@ pub static BLOCK: BlockSpec = BlockSpec::whole::<LoadFile>(About {
     ..About::DEFAULT
 });
 
-/// Rows that one task makes.
-const ROWS: usize = 16;
-
 struct LoadFile;
 
 impl WholeBlock for LoadFile {
@@ -34,21 +31,9 @@ impl WholeBlock for LoadFile {
 
     fn compute<L: Levels>(params: &Params, cx: &WholeContext<'_>) -> Result<Vec<Value>, Error> {
         let picture = cx.read_image(&params.path)?;
-        let from = (picture.width(), picture.height());
-        let resampling = Resampling::new(from, (cx.width, cx.height), params.interpolation.into());
         // A grey picture is made once and given as red, green and blue.
-        let mut image = cx.new_image(picture.planes().min(3))?;
-        for (channel, plane) in image.planes_mut().enumerate() {
-            let source = picture.channel(channel);
-            let width = cx.width as usize;
-            cx.parallel_pieces(plane, ROWS * width, |piece, rows| {
-                cx.check()?;
-                for (row, y) in rows.chunks_exact_mut(width).zip(piece * ROWS..) {
-                    resampling.row::<L>(source, 0, u32::try_from(y).unwrap_or(u32::MAX), row);
-                }
-                Ok(())
-            })?;
-        }
+        let planes = picture.planes().min(3);
+        let image = cx.stretched::<L>(&picture, planes, params.interpolation)?;
         Ok(vec![image.into_colour().into()])
     }
 
