@@ -6,6 +6,7 @@
 
 pub mod box_sum;
 pub mod byte_list;
+pub mod convolution;
 pub mod fill;
 mod gradient;
 mod image;
@@ -13,6 +14,7 @@ mod kind;
 mod pixels;
 mod plane;
 mod resample;
+pub mod ring;
 
 pub use gradient::{Gradient, GradientStop};
 pub use image::{Image, MAX_PLANES};

@@ -9,7 +9,6 @@
 //! ([`box_sum`]). Then Σ (I+1-k)·(column k to the right - column k to the left) is a sum of sums
 //! over the nearest column, the nearest two, …: two additions for each k, in integers.
 
-use super::matrix::copy_ring;
 use crate::block::prelude::*;
 use box_sum::{FixedPoint, LinePlan, LineSums, SlidingSum, Window};
 
@@ -134,7 +133,7 @@ impl Edges {
         if let Some(columns) = &self.columns {
             let mut near = [0; PIECE + 2 * MARGIN];
             let first = x as i64 - MARGIN as i64;
-            copy_ring(columns.row(channel, cx.y).0, first, |sum| sum, &mut near);
+            ring::copy(columns.row(channel, cx.y).0, first, |sum| sum, &mut near);
             add(self.weigh(|k| &near[MARGIN - k..][..PIECE], |k| &near[MARGIN + k..][..PIECE]));
         }
         if let Some(rows) = &self.rows {
@@ -169,7 +168,7 @@ impl Edges {
 
 #[cfg(test)]
 mod tests {
-    use super::super::matrix::naive;
+    use super::super::tests as naive;
     use super::*;
     use crate::block::testing::{Trial, image_of_levels};
 

@@ -149,7 +149,7 @@ impl Slopes {
 
 #[cfg(test)]
 mod tests {
-    use super::super::matrix::naive;
+    use super::super::tests as naive;
     use super::*;
     use crate::block::testing::{Trial, image_of_levels};
 

@@ -94,7 +94,7 @@ impl GatherBlock for Sharpen {
 
 #[cfg(test)]
 mod tests {
-    use super::super::matrix::naive;
+    use super::super::tests as naive;
     use super::*;
     use crate::block::testing::{Trial, image_of_levels};
 
