@@ -11,6 +11,7 @@
 //! Start reading at [`BlockSpec`], then [`prelude`], which is all that a block file sees.
 
 mod context;
+mod generations;
 mod interpolation;
 mod registry;
 mod row;

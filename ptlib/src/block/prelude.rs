@@ -13,6 +13,6 @@ pub use crate::{
     params,
     value::{
         Axis, Gradient, GradientStop, Image, Kind, Plane, Resampling, Span, Value, box_sum,
-        byte_list, convolution, fill, ring,
+        byte_list, cells, convolution, fill, ring,
     },
 };

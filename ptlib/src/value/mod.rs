@@ -6,6 +6,7 @@
 
 pub mod box_sum;
 pub mod byte_list;
+pub mod cells;
 pub mod convolution;
 pub mod fill;
 mod gradient;
