@@ -5,3 +5,4 @@ crate::family!(
 );
 
 mod neighbourhood;
+mod sliding;
