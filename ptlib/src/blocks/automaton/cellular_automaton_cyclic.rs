@@ -71,12 +71,7 @@ fn margin(params: &Params) -> usize {
 }
 
 /// The grid after all iterations.
-fn evolved(
-    params: &Params,
-    cx: &WholeContext<'_>,
-    grid: Grid,
-    states: u8,
-) -> Result<Grid, Error> {
+fn evolved(params: &Params, cx: &WholeContext<'_>, grid: Grid, states: u8) -> Result<Grid, Error> {
     let neighbours = params.neighbourhood.steps(params.size).count();
     let threshold = match u16::try_from(params.threshold) {
         Ok(threshold) if usize::from(threshold) <= neighbours => threshold,

@@ -85,7 +85,7 @@ impl GatherBlock for EdgeDetection {
         let window = Window::around(radius);
         let is = |direction| params.direction == direction || params.direction == Type::Both;
         let plan = LinePlan::new((image.width(), image.height()), 0, [window], fixed);
-        let columns = is(Type::Horizontal).then(|| cx.line_sums(&plan, image));
+        let columns = is(Type::Horizontal).then(|| cx.line_sums(&plan, image, image.planes()));
         let sliding = SlidingSum::new([window], image.width());
         let rows = is(Type::Vertical).then(|| cx.row_sums(&sliding, image, fixed));
         Ok(Self::Edges(Edges {
