@@ -3,6 +3,10 @@
 //! Values are immutable once made and shared by reference count; cloning one is cheap. More kinds
 //! (points, meshes, strands, volumes) join [`Kind`] and [`Value`] here, and nothing elsewhere may
 //! assume that a wire is an image.
+//!
+//! Beside them stands what blocks of several families make of images (specification 2.0): resampled
+//! images, sums over boxes and lines ([`box_sum`]), weighted sums ([`convolution`]), states of
+//! automata ([`cells`]) and filled regions ([`fill`]).
 
 pub mod box_sum;
 pub mod byte_list;
