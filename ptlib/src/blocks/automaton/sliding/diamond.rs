@@ -39,7 +39,7 @@ impl Turn<'_> {
     /// Counts in the diamonds around the cells of row `y`. A diamond is columns of cells, which
     /// are lower the further they are from its middle.
     #[inline(always)]
-    fn diamonds(&self, y: isize) -> Vec<u8> {
+    fn diamonds(self, y: isize) -> Vec<u8> {
         let reach = self.reach.cast_signed();
         let width = self.columns + 2 * self.reach;
         let mut heights = vec![0; width];
@@ -93,19 +93,17 @@ impl<'a> Edges<'a> {
     #[inline(always)]
     fn advance(&mut self, y: isize) {
         let Self { turn, to_left, to_right } = self;
-        let reach = turn.reach.cast_signed();
-        let last = turn.columns.cast_signed() - 1;
-        let one = |x: isize, y: isize| turn.counts(turn.cells(x, y, 1)[0]);
+        let (turn, reach) = (*turn, turn.reach.cast_signed());
         let lost_row = y - reach - 1;
         let count = turn.columns + turn.reach - 1;
 
         let (above, edges) = to_left.above_and_row(y);
-        edges[0] = (0..=reach).map(|up| one(-up, y - up)).sum();
+        edges[0] = turn.edge(0, y, -1);
         let (gained, lost) = (turn.cells(1, y, count), turn.cells(-reach, lost_row, count));
         turn.slide(&above[..count], gained, lost, &mut edges[1..]);
 
         let (above, edges) = to_right.above_and_row(y);
-        edges[count] = (0..=reach).map(|up| one(last + up, y - up)).sum();
+        edges[count] = turn.edge(turn.columns - 1, y, 1);
         let (gained, lost) = (turn.cells(-reach, y, count), turn.cells(1, lost_row, count));
         turn.slide(&above[1..], gained, lost, &mut edges[..count]);
     }
@@ -114,7 +112,7 @@ impl<'a> Edges<'a> {
     #[inline(always)]
     fn slide(&self, counts: &mut [u8], y: isize) {
         let Self { turn, to_left, to_right } = self;
-        let (reach, columns) = (turn.reach, turn.columns);
+        let (turn, reach, columns) = (*turn, turn.reach, turn.columns);
         let (top, bottom) = (y - 1 - reach.cast_signed(), y + reach.cast_signed());
         // Lower edges lead up from the lowest cell, upper ones from the leftmost and rightmost to
         // the topmost cell. Both count where they meet twice.
@@ -134,9 +132,21 @@ impl<'a> Edges<'a> {
 }
 
 impl Turn<'_> {
+    /// The edge that leads up from a cell, `step` columns in each row.
+    #[inline(always)]
+    fn edge(self, x: usize, y: isize, step: isize) -> u8 {
+        let mut place = self.old.place(self.left + x, y.cast_unsigned());
+        let mut count = 0;
+        for _ in 0..=self.reach {
+            count += self.counts(self.old.cells()[place]);
+            place = place.wrapping_add_signed(self.old.offset(step, -1));
+        }
+        count
+    }
+
     /// Sums that have moved from where `sums` belong to.
     #[inline(always)]
-    fn slide(&self, sums: &[u8], gained: &[u8], lost: &[u8], out: &mut [u8]) {
+    fn slide(self, sums: &[u8], gained: &[u8], lost: &[u8], out: &mut [u8]) {
         for (((out, sum), gained), lost) in out.iter_mut().zip(sums).zip(gained).zip(lost) {
             *out = sum.wrapping_add(self.counts(*gained)).wrapping_sub(self.counts(*lost));
         }

@@ -70,7 +70,8 @@ impl Sliding {
     }
 }
 
-/// The turn of one state, in some columns.
+/// The turn of one state, in some columns. Its methods take copies, which stay in registers: bytes
+/// behind a reference might change with each byte that is written.
 #[derive(Clone, Copy)]
 struct Turn<'a> {
     old: &'a Grid,
@@ -84,21 +85,21 @@ struct Turn<'a> {
 }
 
 impl<'a> Turn<'a> {
-    /// Whether a cell is to be counted.
+    /// What a cell adds to a count.
     #[inline(always)]
-    fn counts(&self, cell: u8) -> u8 {
+    fn counts(self, cell: u8) -> u8 {
         u8::from(cell == self.eater)
     }
 
     /// `count` cells of row `y`, from `x` columns right of the first one on.
     #[inline(always)]
-    fn cells(&self, x: isize, y: isize, count: usize) -> &'a [u8] {
+    fn cells(self, x: isize, y: isize, count: usize) -> &'a [u8] {
         self.old.stretch(self.left.cast_signed() + x, y, count)
     }
 
     /// Adds the cells to counts.
     #[inline(always)]
-    fn add(&self, counts: &mut [u8], cells: &[u8]) {
+    fn add(self, counts: &mut [u8], cells: &[u8]) {
         for (count, cell) in counts.iter_mut().zip(cells) {
             *count += self.counts(*cell);
         }
@@ -106,7 +107,7 @@ impl<'a> Turn<'a> {
 
     /// Lets the prey among `cells` be eaten where counts have reached a limit.
     #[inline(always)]
-    fn eat(&self, cells: &[u8], counts: &[u8], limit: u8, out: &mut [u8]) {
+    fn eat(self, cells: &[u8], counts: &[u8], limit: u8, out: &mut [u8]) {
         for ((out, cell), count) in out.iter_mut().zip(cells).zip(counts) {
             // All bits or none: nobody can foretell a branch here.
             let is_eaten =

@@ -58,7 +58,7 @@ impl Turn<'_> {
     /// last ones saturate. (If the first sums are smaller than that, the others cannot make up for
     /// it.)
     #[inline(always)]
-    fn squares(&self, triples: &[u8], columns: &[u8]) -> ([u8; SIDE], u8) {
+    fn squares(self, triples: &[u8], columns: &[u8]) -> ([u8; SIDE], u8) {
         let side = 2 * self.reach + 1;
         let limit = u8::try_from(self.threshold).unwrap_or(u8::MAX);
         let excess = u8::try_from(self.threshold - u16::from(limit)).unwrap_or(u8::MAX);
