@@ -9,15 +9,17 @@
 //! turns. [`SlidingSum`] sums along one row, a [`RunningSum`] may follow several; [`LinePlan`] sums
 //! along all columns (or diagonals) of an image, in bands of columns that may be filled in any
 //! order. [`SquareSums`], the BOX of the specification (2.0), are both: sums along the columns of
-//! an image, summed along a row when that is asked for.
+//! an image, summed along a row when that is asked for; a [`LevelBox`] is the same for bytes.
 //!
 //! Rejected: a summed-area table. It needs 64-bit numbers for every pixel, and a pass along the
 //! columns and one along the rows with nothing in between is as cheap and stays in the cache.
 
+mod levels;
 mod lines;
 mod rows;
 mod squares;
 
+pub use levels::LevelBox;
 pub use lines::{Band, LinePlan, LineSums};
 pub use rows::{RunningSum, SlidingSum, Tap};
 pub use squares::SquareSums;
