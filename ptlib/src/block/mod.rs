@@ -12,6 +12,7 @@
 
 mod context;
 mod fit;
+mod generations;
 mod interpolation;
 mod registry;
 mod row;

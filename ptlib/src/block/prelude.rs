@@ -13,6 +13,6 @@ pub use crate::{
     params,
     value::{
         Axis, Gradient, GradientStop, Image, Kind, Mesh, Plane, Points, Resampling, Span, Strands,
-        Stream, Value, box_sum, byte_list, fill,
+        Stream, Value, box_sum, byte_list, cells, convolution, fill, ring,
     },
 };

@@ -3,10 +3,10 @@
 use super::Context;
 use crate::{
     error::Error,
-    math::simd::Kernel,
+    math::{levels::Levels, simd::Kernel},
     value::{
         Image,
-        box_sum::{FixedPoint, LinePlan, LineSums, SlidingSum},
+        box_sum::{FixedPoint, LinePlan, LineSums, SlidingSum, SquareSums, Window},
     },
 };
 
@@ -14,8 +14,8 @@ use crate::{
 const ROWS: usize = 16;
 
 impl Context<'_> {
-    /// The sums of `plan` in each plane of `image`. Announce their memory, which is that of the
-    /// image.
+    /// The sums of `plan` in the first `planes` planes of `image`. Announce their memory, which is
+    /// that of as many planes.
     ///
     /// # Errors
     /// [`NoMemory`](crate::ErrorKind::NoMemory) or [`Cancelled`](crate::ErrorKind::Cancelled).
@@ -23,12 +23,26 @@ impl Context<'_> {
         &self,
         plan: &LinePlan<K>,
         image: &Image,
+        planes: usize,
     ) -> Result<LineSums, Error> {
-        let mut sums = self.unwritten_sums(image)?;
+        let mut sums = self.unwritten_sums(image, planes)?;
         self.parallel_pieces(&mut plan.bands(image, &mut sums), 1, |_, bands| {
             bands.iter_mut().try_for_each(|band| band.fill(self.simd, || self.check()))
         })?;
         Ok(sums)
+    }
+
+    /// The sums of the squares of that radius around all pixels, in each plane of `image`. Announce
+    /// their memory, which is that of the image.
+    ///
+    /// # Errors
+    /// As [`line_sums`](Self::line_sums).
+    pub fn square_sums<L: Levels>(&self, radius: u32, image: &Image) -> Result<SquareSums, Error> {
+        let fixed = FixedPoint::new::<L>(2 * radius + 1);
+        let size = (image.width(), image.height());
+        let plan = LinePlan::new(size, 0, [Window::around(radius)], fixed);
+        let columns = self.line_sums(&plan, image, image.planes())?;
+        Ok(SquareSums::new(columns, radius, fixed))
     }
 
     /// The sums of `sliding` in each row of each plane of `image`, which must fit 32 bits.
@@ -43,7 +57,7 @@ impl Context<'_> {
         fixed: FixedPoint,
     ) -> Result<LineSums, Error> {
         let width = image.width() as usize;
-        let mut sums = self.unwritten_sums(image)?;
+        let mut sums = self.unwritten_sums(image, image.planes())?;
         for (channel, plane) in sums.planes_mut().enumerate() {
             let source = image.channel(channel);
             self.parallel_pieces(plane, width * ROWS, |piece, sums| {
@@ -59,9 +73,8 @@ impl Context<'_> {
         Ok(sums)
     }
 
-    fn unwritten_sums(&self, image: &Image) -> Result<LineSums, Error> {
-        let (width, height) = (image.width(), image.height());
-        Ok(LineSums::new(self.new_image_sized(width, height, image.planes())?))
+    fn unwritten_sums(&self, image: &Image, planes: usize) -> Result<LineSums, Error> {
+        Ok(LineSums::new(self.new_image_sized(image.width(), image.height(), planes)?))
     }
 }
 

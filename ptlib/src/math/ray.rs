@@ -30,11 +30,20 @@ impl Position {
     pub fn jump(self, distance: f64, angle: f64) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "positions are far below 2⁵²")]
         let (x, y) = (self.x as f64, self.y as f64);
+        let (right, up) = heading(angle);
         Self {
-            x: convert::truncate64(x + distance * elementary::sin64(FRAC_PI_2 + angle)),
-            y: convert::truncate64(y - distance * elementary::sin64(angle)),
+            x: convert::truncate64(x + distance * right),
+            y: convert::truncate64(y - distance * up),
         }
     }
+}
+
+/// How far a jump over one pixel leads to the right and up (specification 2.0, JUMP). For blocks
+/// that make many jumps side by side.
+#[inline]
+#[must_use]
+pub fn heading(angle: f64) -> (f64, f64) {
+    (elementary::sin64(FRAC_PI_2 + angle), elementary::sin64(angle))
 }
 
 /// The pixels in one direction from a start (specification 2.0, LP). They are counted along the

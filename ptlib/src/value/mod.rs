@@ -9,12 +9,18 @@
 //! are ours or the caller's; a [`Draft`] is a value whose words are still written. The rules for
 //! what they contain are in `check`: who has a [`Mesh`], [`Points`] or [`Strands`] needs no further
 //! checks.
+//!
+//! Beside them stands what blocks of several families make of images (specification 2.0): resampled
+//! images, sums over boxes and lines ([`box_sum`]), weighted sums ([`convolution`]), states of
+//! automata ([`cells`]) and filled regions ([`fill`]).
 
 mod bounds;
 pub mod box_sum;
 pub mod byte_list;
+pub mod cells;
 mod check;
 mod content;
+pub mod convolution;
 mod draft;
 pub mod fill;
 mod gradient;
@@ -25,6 +31,7 @@ mod pixels;
 mod plane;
 mod points;
 mod resample;
+pub mod ring;
 mod strands;
 mod stream;
 mod words;

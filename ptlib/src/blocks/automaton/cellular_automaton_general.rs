@@ -5,8 +5,8 @@
 //! Which of the eight neighbours are alive is a number 0..255; the rule of that number says what
 //! becomes of a cell. All cells change at once.
 
-use super::cells::{Grid, Rule, SIDE, evolve, picture, states_of, value_of_state};
 use crate::block::prelude::*;
+use cells::{Grid, Rule, SIDE, value_of_state};
 
 const IMAGE: usize = 0;
 
@@ -45,15 +45,17 @@ impl WholeBlock for CellularAutomatonGeneral {
 
     fn compute<L: Levels>(params: &Params, cx: &WholeContext<'_>) -> Result<Vec<Value>, Error> {
         let states = convert::clamped_byte(params.states);
-        let grid = states_of::<L>(cx, cx.image(IMAGE)?, states, MARGIN)?;
+        let grid = cx.states_of::<L>(cx.image(IMAGE)?, states, MARGIN)?;
         // BUG of the specification, fixed: missing rules are 0.
         let mut rules = [0; 256];
         for (rule, number) in rules.iter_mut().zip(byte_list::parse(&params.rules)) {
             *rule = number;
         }
         let life = Life { rules, oldest: states - 1, around: around(&grid) };
-        let grid = evolve(cx, grid, params.iterations.unsigned_abs(), &life)?;
-        picture(cx, &grid, |state| value_of_state::<L>(state, states))
+        let iterations = params.iterations.unsigned_abs();
+        let grid = cx.evolve(grid, iterations, |old, new| cx.generation(old, new, &life))?;
+        let picture = cx.picture_of(&grid, |state| value_of_state::<L>(state, states))?;
+        Ok(vec![Value::Image(picture)])
     }
 
     fn scratch_bytes(_: &Params, width: u32, height: u32) -> u64 {

@@ -8,10 +8,9 @@
 //! A cell's state and how far it has spread make one byte, and what becomes of any two of them is
 //! a table.
 
-use super::cells::{
-    Grid, MAX_SIZE, Neighbourhood, Rule, SIDE, generation, picture, states_of, value_of_state,
-};
+use super::neighbourhood::{MAX_SIZE, Neighbourhood};
 use crate::block::prelude::*;
+use cells::{Grid, Rule, SIDE, value_of_state};
 
 const IMAGE: usize = 0;
 
@@ -53,7 +52,7 @@ impl WholeBlock for CellularAutomatonRps {
 
     fn compute<L: Levels>(params: &Params, cx: &WholeContext<'_>) -> Result<Vec<Value>, Error> {
         let players = convert::clamped_byte(params.players);
-        let mut grid = states_of::<L>(cx, cx.image(IMAGE)?, players + 1, margin(params))?;
+        let mut grid = cx.states_of::<L>(cx.image(IMAGE)?, players + 1, margin(params))?;
         // From states to states with distance 0: the empty one has no distance, and is the last.
         grid = grid.map(|state| state * DISTANCES);
         let steps = params.neighbourhood.steps(params.size);
@@ -70,14 +69,15 @@ impl WholeBlock for CellularAutomatonRps {
             if i % LOOK_EVERY == 0 && game.is_over(&grid, cx.height) {
                 break;
             }
-            generation(cx, &grid, &mut next, &game)?;
+            cx.generation(&grid, &mut next, &game)?;
             std::mem::swap(&mut grid, &mut next);
             let draws = u64::from(cx.width) * u64::from(cx.height);
             game.first = game.first.wrapping_add(convert::low_bits(draws));
             cx.report(f64::from(i) / f64::from(iterations));
             cx.check()?;
         }
-        picture(cx, &grid, |cell| value_of_state::<L>(cell / DISTANCES, players + 1))
+        let value = |cell| value_of_state::<L>(cell / DISTANCES, players + 1);
+        Ok(vec![Value::Image(cx.picture_of(&grid, value)?)])
     }
 
     fn scratch_bytes(params: &Params, width: u32, height: u32) -> u64 {

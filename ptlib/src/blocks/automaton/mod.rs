@@ -4,4 +4,5 @@ crate::family!(
     "automaton": cellular_automaton_cyclic, cellular_automaton_general, cellular_automaton_rps
 );
 
-mod cells;
+mod neighbourhood;
+mod sliding;

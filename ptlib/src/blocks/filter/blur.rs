@@ -5,7 +5,7 @@
 //! Both wrap around, also where the square is larger than the image, so the result tiles.
 
 use crate::block::prelude::*;
-use box_sum::{FixedPoint, LinePlan, LineSums, Mean, SlidingSum, Window};
+use box_sum::{FixedPoint, LinePlan, LineSums, Mean, SlidingSum, SquareSums, Window};
 
 const IMAGE: usize = 0;
 
@@ -48,9 +48,9 @@ pub static BLOCK: BlockSpec = BlockSpec::gather::<Blur>(About {
 /// What is left to do for a row.
 enum Blur {
     Nothing(Image),
-    SumRow { image: Image, row: SlidingSum<1>, fixed: FixedPoint, mean: Mean },
-    SumLineSums { sums: LineSums, row: SlidingSum<1>, mean: Mean },
-    ReadLineSums { sums: LineSums, mean: Mean },
+    Square { sums: SquareSums, mean: Mean },
+    Row { image: Image, row: SlidingSum<1>, fixed: FixedPoint, mean: Mean },
+    Line { sums: LineSums, mean: Mean },
 }
 
 impl GatherBlock for Blur {
@@ -62,26 +62,27 @@ impl GatherBlock for Blur {
         if radius == 0 {
             return Ok(Self::Nothing(image.clone()));
         }
+        let side = f64::from(2 * radius + 1);
+        if !params.motion {
+            let sums = cx.square_sums::<L>(radius, image)?;
+            let mean = Mean::of(side * side, sums.fixed());
+            return Ok(Self::Square { sums, mean });
+        }
         let window = Window::around(radius);
-        let side = 2 * radius + 1;
-        let fixed = FixedPoint::new::<L>(side);
-        let row = SlidingSum::new([window], image.width());
-        let mean = Mean::of(f64::from(side), fixed);
-        let slope = match (params.motion, params.direction) {
-            (true, Direction::Horizontal) => {
-                return Ok(Self::SumRow { image: image.clone(), row, fixed, mean });
+        let fixed = FixedPoint::new::<L>(2 * radius + 1);
+        let mean = Mean::of(side, fixed);
+        let slope = match params.direction {
+            Direction::Horizontal => {
+                let row = SlidingSum::new([window], image.width());
+                return Ok(Self::Row { image: image.clone(), row, fixed, mean });
             }
-            (false, _) | (true, Direction::Vertical) => 0,
-            (true, Direction::FallingDiagonal) => 1,
-            (true, Direction::RisingDiagonal) => -1,
+            Direction::Vertical => 0,
+            Direction::FallingDiagonal => 1,
+            Direction::RisingDiagonal => -1,
         };
         let plan = LinePlan::new((image.width(), image.height()), slope, [window], fixed);
-        let sums = cx.line_sums(&plan, image)?;
-        if params.motion {
-            return Ok(Self::ReadLineSums { sums, mean });
-        }
-        let mean = Mean::of(f64::from(side) * f64::from(side), fixed);
-        Ok(Self::SumLineSums { sums, row, mean })
+        let sums = cx.line_sums(&plan, image, image.planes())?;
+        Ok(Self::Line { sums, mean })
     }
 
     #[inline(always)]
@@ -89,17 +90,16 @@ impl GatherBlock for Blur {
         for (channel, out) in out.iter_mut().enumerate() {
             match self {
                 Self::Nothing(image) => out.copy_from_slice(image.row(channel, cx.y)),
-                Self::SumRow { image, row, fixed, mean } => row.along(
+                Self::Square { sums, mean } => {
+                    sums.row(channel, cx.y).along(|sum| sum, out, |_, sum| mean.store::<L>(sum));
+                }
+                Self::Row { image, row, fixed, mean } => row.along(
                     image.row(channel, cx.y),
                     |value| fixed.integer(value),
                     out,
                     |sum| mean.store::<L>(sum),
                 ),
-                Self::SumLineSums { sums, row, mean } => {
-                    let (line_sums, _) = sums.row(channel, cx.y);
-                    row.along(line_sums, |sum| sum, out, |sum| mean.store::<L>(sum));
-                }
-                Self::ReadLineSums { sums, mean } => {
+                Self::Line { sums, mean } => {
                     let (line_sums, start) = sums.row(channel, cx.y);
                     let ring = line_sums[start..].iter().chain(&line_sums[..start]);
                     for (out, sum) in out.iter_mut().zip(ring) {
@@ -122,17 +122,9 @@ impl GatherBlock for Blur {
 
 #[cfg(test)]
 mod tests {
+    use super::super::tests::noise;
     use super::*;
     use crate::block::testing::{Trial, image_of_levels};
-
-    fn noise(width: u32, height: u32) -> Vec<u8> {
-        let mut number = 7_u32;
-        let mut next = || {
-            number = number.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-            number.to_be_bytes()[0]
-        };
-        (0..width * height).map(|_| next()).collect()
-    }
 
     /// ⌊mean⌋ of the pixels that `is_in` picks from the square of that radius.
     fn naive(
@@ -160,7 +152,7 @@ mod tests {
     #[test]
     fn a_box_is_the_floor_of_the_mean_of_its_square() {
         for size in [(1, 1), (7, 5), (4, 9), (270, 3)] {
-            let levels = noise(size.0, size.1);
+            let levels = noise(size.0 * size.1);
             for radius in [0, 1, 2, 3, 5, 8, 11] {
                 let trial = Trial::of(&BLOCK)
                     .size(size.0, size.1)
@@ -177,7 +169,7 @@ mod tests {
         let is_in: [fn(i64, i64) -> bool; 4] =
             [|_, j| j == 0, |i, _| i == 0, |i, j| i == j, |i, j| i == -j];
         for size in [(1, 1), (7, 5), (6, 4), (270, 3)] {
-            let levels = noise(size.0, size.1);
+            let levels = noise(size.0 * size.1);
             for (direction, is_in) in (0..).zip(is_in) {
                 for radius in [1, 2, 3, 9, 25] {
                     let trial = Trial::of(&BLOCK)

@@ -3,8 +3,8 @@
 //! Specification 2.35; [`Matrix`] makes the sums. They wrap around, also where the
 //! matrix is larger than the image, so the result tiles.
 
-use super::matrix::{MAX_SIDE, Matrix};
 use crate::block::prelude::*;
+use convolution::{MAX_SIDE, Matrix};
 
 const IMAGE: usize = 0;
 
@@ -58,7 +58,7 @@ impl GatherBlock for Convolution {
     #[inline(always)]
     fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (channel, out) in out.iter_mut().enumerate() {
-            self.matrix.write::<L>(&self.image, channel, cx, out);
+            self.matrix.write::<L>(&self.image, channel, cx.y, out);
         }
     }
 }
@@ -78,7 +78,7 @@ fn read(mut text: &str) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::matrix::naive;
+    use super::super::tests as naive;
     use super::*;
     use crate::block::testing::{Trial, image_of_levels};
 

@@ -9,7 +9,6 @@
 //! ([`box_sum`]). Then Σ (I+1-k)·(column k to the right - column k to the left) is a sum of sums
 //! over the nearest column, the nearest two, …: two additions for each k, in integers.
 
-use super::matrix::copy_ring;
 use crate::block::prelude::*;
 use box_sum::{FixedPoint, LinePlan, LineSums, SlidingSum, Window};
 
@@ -86,7 +85,7 @@ impl GatherBlock for EdgeDetection {
         let window = Window::around(radius);
         let is = |direction| params.direction == direction || params.direction == Type::Both;
         let plan = LinePlan::new((image.width(), image.height()), 0, [window], fixed);
-        let columns = is(Type::Horizontal).then(|| cx.line_sums(&plan, image));
+        let columns = is(Type::Horizontal).then(|| cx.line_sums(&plan, image, image.planes()));
         let sliding = SlidingSum::new([window], image.width());
         let rows = is(Type::Vertical).then(|| cx.row_sums(&sliding, image, fixed));
         Ok(Self::Edges(Edges {
@@ -134,7 +133,7 @@ impl Edges {
         if let Some(columns) = &self.columns {
             let mut near = [0; PIECE + 2 * MARGIN];
             let first = x as i64 - MARGIN as i64;
-            copy_ring(columns.row(channel, cx.y).0, first, |sum| sum, &mut near);
+            ring::copy(columns.row(channel, cx.y).0, first, |sum| sum, &mut near);
             add(self.weigh(|k| &near[MARGIN - k..][..PIECE], |k| &near[MARGIN + k..][..PIECE]));
         }
         if let Some(rows) = &self.rows {
@@ -169,7 +168,7 @@ impl Edges {
 
 #[cfg(test)]
 mod tests {
-    use super::super::matrix::naive;
+    use super::super::tests as naive;
     use super::*;
     use crate::block::testing::{Trial, image_of_levels};
 

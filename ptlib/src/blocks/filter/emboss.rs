@@ -62,11 +62,13 @@ impl GatherBlock for Emboss {
         let size = (image.width(), image.height());
         let fixed = FixedPoint::new::<L>(2 * radius);
         let window = Window::new(-i64::from(radius), 2 * radius);
-        let along = |slope| LinePlan::new(size, slope, [window], fixed);
+        let along = |slope| {
+            cx.line_sums(&LinePlan::new(size, slope, [window], fixed), image, image.planes())
+        };
         let mut slopes = Slopes {
             radius: i64::from(radius),
-            columns: cx.line_sums(&along(0), image)?,
-            diagonals: cx.line_sums(&along(-1), image)?,
+            columns: along(0)?,
+            diagonals: along(-1)?,
             starts: Vec::new(),
             unit: Mean::of(1.0, fixed),
         };
@@ -149,7 +151,7 @@ impl Slopes {
 
 #[cfg(test)]
 mod tests {
-    use super::super::matrix::naive;
+    use super::super::tests as naive;
     use super::*;
     use crate::block::testing::{Trial, image_of_levels};
 

@@ -2,4 +2,5 @@
 
 crate::family!("filter": blur, convolution, edge_detection, emboss, sharpen);
 
-mod matrix;
+#[cfg(test)]
+mod tests;

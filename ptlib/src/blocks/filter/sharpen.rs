@@ -7,7 +7,7 @@
 //! the image, so the result tiles.
 
 use crate::block::prelude::*;
-use box_sum::{FixedPoint, LinePlan, LineSums, Mean, SlidingSum, Window};
+use box_sum::{Mean, SquareSums};
 
 const IMAGE: usize = 0;
 
@@ -32,18 +32,8 @@ pub static BLOCK: BlockSpec = BlockSpec::gather::<Sharpen>(About {
 
 struct Sharpen {
     image: Image,
-    /// `None` if nothing changes.
-    square: Option<Square>,
-}
-
-/// The sums of the squares around pixels.
-struct Square {
-    columns: LineSums,
-    row: SlidingSum<1>,
-    /// Pixels of the square.
-    count: i64,
-    fixed: FixedPoint,
-    unit: Mean,
+    /// The sums of the squares around pixels; `None` if nothing changes.
+    squares: Option<SquareSums>,
 }
 
 impl GatherBlock for Sharpen {
@@ -51,31 +41,24 @@ impl GatherBlock for Sharpen {
 
     fn prepare<L: Levels>(params: &Params, cx: &PrepareContext<'_>) -> Result<Self, Error> {
         let image = cx.image(IMAGE)?.clone();
-        let radius = params.intensity.unsigned_abs();
-        if radius == 0 {
-            return Ok(Self { image, square: None });
-        }
-        let window = Window::around(radius);
-        let side = 2 * radius + 1;
-        let fixed = FixedPoint::new::<L>(side);
-        let plan = LinePlan::new((image.width(), image.height()), 0, [window], fixed);
-        let columns = cx.line_sums(&plan, &image)?;
-        let row = SlidingSum::new([window], image.width());
-        let count = i64::from(side) * i64::from(side);
-        let unit = Mean::of(1.0, fixed);
-        Ok(Self { image, square: Some(Square { columns, row, count, fixed, unit }) })
+        let squares = match params.intensity.unsigned_abs() {
+            0 => None,
+            radius => Some(cx.square_sums::<L>(radius, &image)?),
+        };
+        Ok(Self { image, squares })
     }
 
     #[inline(always)]
     fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (channel, out) in out.iter_mut().enumerate() {
             let pixels = self.image.row(channel, cx.y);
-            let Some(Square { columns, row, count, fixed, unit }) = &self.square else {
+            let Some(squares) = &self.squares else {
                 out.copy_from_slice(pixels);
                 continue;
             };
-            let (sums, _) = columns.row(channel, cx.y);
-            row.on(sums, |sum| sum).along(
+            let (count, fixed) = (squares.pixels().cast_signed(), squares.fixed());
+            let unit = Mean::of(1.0, fixed);
+            squares.row(channel, cx.y).along(
                 |sum| sum,
                 out,
                 |x, sum| {
@@ -94,7 +77,7 @@ impl GatherBlock for Sharpen {
 
 #[cfg(test)]
 mod tests {
-    use super::super::matrix::naive;
+    use super::super::tests as naive;
     use super::*;
     use crate::block::testing::{Trial, image_of_levels};
 

@@ -50,9 +50,12 @@ impl GatherBlock for NormalMap {
         let square = Window::around(size);
         let halves = [Window::new(-i64::from(size), size), Window::new(1, size).negative()];
         let pairs = f64::from(size) * f64::from(2 * size + 1);
+        let dimensions = (image.width(), image.height());
+        let columns = LinePlan::new(dimensions, 0, [square], fixed);
+        let differences = LinePlan::new(dimensions, 0, halves, fixed);
         Ok(Self {
-            columns: line_sums(cx, image, [square], fixed)?,
-            differences: line_sums(cx, image, halves, fixed)?,
+            columns: cx.line_sums(&columns, image, 1)?,
+            differences: cx.line_sums(&differences, image, 1)?,
             along_x: SlidingSum::new(halves, image.width()),
             along_y: SlidingSum::new([square], image.width()),
             to_slope: convert::single(255.0 / (pairs * fixed.one())),
@@ -78,20 +81,6 @@ impl GatherBlock for NormalMap {
     fn scratch_bytes(_: &Params, width: u32, height: u32, _: usize) -> u64 {
         2 * Image::bytes_of(width, height, 1)
     }
-}
-
-fn line_sums<const K: usize>(
-    cx: &PrepareContext<'_>,
-    image: &Image,
-    windows: [Window; K],
-    fixed: FixedPoint,
-) -> Result<LineSums, Error> {
-    let plan = LinePlan::new((image.width(), image.height()), 0, windows, fixed);
-    let mut sums = LineSums::new(cx.new_image(1)?);
-    cx.parallel_pieces(&mut plan.bands(image, &mut sums), 1, |_, bands| {
-        bands.iter_mut().try_for_each(|band| band.fill(cx.simd, || cx.check()))
-    })?;
-    Ok(sums)
 }
 
 #[cfg(test)]

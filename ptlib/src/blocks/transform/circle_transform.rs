@@ -9,7 +9,7 @@
 //! jumps) comes out right only this way. In 8-bit precision that is kept. In float precision all
 //! positions are rounded down, and the result tiles.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use crate::block::prelude::*;
 
@@ -65,7 +65,7 @@ impl GatherBlock for CircleTransform {
         let mut by_level = Box::new([[0.0; 2]; 256]);
         for (level, jump) in (0..=255_u8).zip(by_level.iter_mut()) {
             let angle = 2.0 * PI * f64::from(level) / 255.0;
-            let (right, up) = (elementary::sin64(FRAC_PI_2 + angle), elementary::sin64(angle));
+            let (right, up) = ray::heading(angle);
             *jump = [radius * right, -radius * up];
         }
         let image = cx.image(IMAGE)?.clone();
@@ -176,6 +176,8 @@ fn places(x: &Walk, y: &Walk, width: i32) -> [usize; PIECE] {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
     use super::*;
     use crate::block::testing::{Trial, image_of_levels};
 

@@ -8,7 +8,7 @@
 //! Directions come from single-precision polynomials; in 8-bit precision, positions so near to a
 //! whole one that this decides how they are truncated are computed again in double precision.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 use crate::block::prelude::*;
 
@@ -102,9 +102,7 @@ impl RadiusTransform {
                 let near = radius * 2e-6 + 1e-9;
                 if end.iter().any(|end| (end - (end + 0.5).floor()).abs() < near) {
                     let x = x as f64;
-                    let angle = self.angle(cx, x);
-                    let (right, up) =
-                        (elementary::sin64(FRAC_PI_2 + angle), elementary::sin64(angle));
+                    let (right, up) = ray::heading(self.angle(cx, x));
                     *end = [x + radius * right, y - radius * up];
                 }
             }

@@ -9,6 +9,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::super::super::noise::lattice::{LatticeNoise, Settings};
 use crate::block::prelude::*;
+use box_sum::LevelBox;
 
 /// The seed, for every turtle (specification, appendix A).
 const SEED: i32 = 4;
@@ -22,8 +23,8 @@ const ROWS: usize = 16;
 /// The most memory that [`steering`] takes, in bytes, its result included.
 pub(super) fn bytes_of(intensity: f64, width: u32, height: u32) -> u64 {
     let lattices = settings(intensity).scratch_bytes(width, height);
-    // The result, an octave, and a lattice about as fine.
-    u64::from(width) * u64::from(height) * 7 + lattices
+    // The result, the sums of an octave, and a lattice about as fine.
+    u64::from(width) * u64::from(height) * 8 + lattices
 }
 
 /// The noise at that intensity 0..1, row by row.
@@ -141,39 +142,25 @@ impl Octave {
         let columns = self.columns as usize;
         let across: Vec<_> =
             (0..cx.width).map(|x| Between::new(x, cx.width, self.columns)).collect();
-        let mut octave = vec![0_u8; noise.len()];
-        rows(&mut octave, cx, |y, out| {
+        let boxes = LevelBox::new(self.radius, cx.width);
+        let mut sums = vec![0; noise.len()];
+        rows(&mut sums, cx, |y, sums| {
             let down = Between::new(y, cx.height, self.rows);
             let row = |row: usize| &self.lattice[row * columns..][..columns];
             let (above, below) = (row(down.0), row(down.1));
-            for (out, across) in out.iter_mut().zip(&across) {
+            let level = |across: &Between| {
                 let level = |row: &[u8]| across.level(row[across.0], row[across.1]);
-                *out = down.level(level(above), level(below));
-            }
+                down.level(level(above), level(below))
+            };
+            boxes.across(&across.iter().map(level).collect::<Vec<_>>(), sums);
         })?;
-        rows(noise, cx, |y, out| {
-            for (level, value) in out.iter_mut().zip(self.boxed(&octave, y, cx)) {
-                *level = (*level + value - 128.0).clamp(0.0, 255.0);
-            }
+        cx.parallel_pieces(noise, ROWS * cx.width as usize, |piece, levels| {
+            cx.check()?;
+            boxes.down(&sums, piece * ROWS, levels, |level, mean| {
+                *level = (*level + convert::level(mean) - 128.0).clamp(0.0, 255.0);
+            });
+            Ok(())
         })
-    }
-
-    /// A row of the octave's image, blurred.
-    fn boxed(&self, image: &[u8], y: u32, cx: &Context<'_>) -> Vec<f32> {
-        let (width, height, reach) = (cx.width as usize, cx.height, i64::from(self.radius));
-        let mut sums = vec![0_u32; width];
-        for down in -reach..=reach {
-            let row = convert::wrap(i64::from(y) + down, height) as usize;
-            for (sum, level) in sums.iter_mut().zip(&image[row * width..]) {
-                *sum += u32::from(*level);
-            }
-        }
-        let pixels = (2 * self.radius + 1).pow(2);
-        let sum = |x: u32| {
-            let columns = (-reach..=reach).map(|i| convert::wrap_near(i64::from(x) + i, cx.width));
-            columns.map(|x| sums[x as usize]).sum::<u32>()
-        };
-        (0..cx.width).map(|x| convert::pixels(sum(x) / pixels)).collect()
     }
 }
 

@@ -2,34 +2,27 @@
 //!
 //! Specification 2.0, STATES and UNSTATES. A cell is one byte. A picture of them is a [`Grid`]
 //! with a margin that repeats the opposite side, so that a neighbour is found by adding to a
-//! place and no rule knows about edges. A generation goes from one grid to another, row by row on
-//! all threads; a rule writes [`SIDE`] cells at a time, which the compiler makes vectors of.
+//! place and no rule knows about edges. A generation goes from one grid to another, band by band
+//! of rows, in any order; a [`Rule`] writes [`SIDE`] cells at a time, which the compiler makes
+//! vectors of.
 
 mod grid;
-mod neighbours;
 
-pub(super) use grid::{Grid, Rule, SIDE, evolve, generation};
-pub(super) use neighbours::{MAX_SIZE, Neighbourhood};
+pub use grid::{Band, Grid, Rule, SIDE};
 
-use crate::block::prelude::*;
+use super::Image;
+use crate::math::{
+    convert,
+    levels::{self, Levels},
+};
 
-/// The grid whose cells have the states of an image's pixels: 0..`states`, from dark to light. As
+/// Writes the states of the pixels in row `y` of an image: 0..`states`, from dark to light. As
 /// white counts as level 237 (Q), the lightest states may not occur.
-pub(super) fn states_of<L: Levels>(
-    cx: &WholeContext<'_>,
-    image: &Image,
-    states: u8,
-    margin: usize,
-) -> Result<Grid, Error> {
-    let mut grid = Grid::new(cx.width, cx.height, margin);
-    grid.fill(cx, |y, out| {
-        let y = convert::wrap(y as i64, cx.height);
-        let [red, green, blue] = [0, 1, 2].map(|channel| image.row(channel, y));
-        for (((out, red), green), blue) in out.iter_mut().zip(red).zip(green).zip(blue) {
-            *out = state_of::<L>(levels::luma::<L>([*red, *green, *blue]), states);
-        }
-    })?;
-    Ok(grid)
+pub fn write_states<L: Levels>(image: &Image, y: u32, states: u8, out: &mut [u8]) {
+    let [red, green, blue] = [0, 1, 2].map(|channel| image.row(channel, y));
+    for (((out, red), green), blue) in out.iter_mut().zip(red).zip(green).zip(blue) {
+        *out = state_of::<L>(levels::luma::<L>([*red, *green, *blue]), states);
+    }
 }
 
 /// The smallest i ≥ 1 for which a value is at most i/`states`, minus 1.
@@ -44,35 +37,14 @@ fn state_of<L: Levels>(value: f32, states: u8) -> u8 {
 }
 
 /// The value of each of `states` states: 0 is black, the last one white.
-pub(super) fn value_of_state<L: Levels>(state: u8, states: u8) -> f32 {
+#[must_use]
+pub fn value_of_state<L: Levels>(state: u8, states: u8) -> f32 {
     let (state, last) = (u32::from(state), u32::from(states.max(2)) - 1);
     if L::EIGHT_BIT {
         levels::from_level(convert::pixels(state * 255 / last))
     } else {
         convert::pixels(state) / convert::pixels(last)
     }
-}
-
-/// The picture whose pixels have the values of the cells of a grid.
-pub(super) fn picture(
-    cx: &WholeContext<'_>,
-    grid: &Grid,
-    value: impl Fn(u8) -> f32,
-) -> Result<Vec<Value>, Error> {
-    let mut values = [0.0; 256];
-    for (cell, entry) in (0..=255).zip(&mut values) {
-        *entry = value(cell);
-    }
-    let mut image = cx.new_image(1)?;
-    for plane in image.planes_mut() {
-        cx.parallel_pieces(plane, cx.width as usize, |y, out| {
-            for (out, cell) in out.iter_mut().zip(grid.row(y)) {
-                *out = values[usize::from(*cell)];
-            }
-            Ok(())
-        })?;
-    }
-    Ok(vec![Value::Image(image)])
 }
 
 #[cfg(test)]

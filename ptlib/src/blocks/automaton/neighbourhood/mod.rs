@@ -3,7 +3,7 @@
 use crate::block::prelude::*;
 
 /// The largest size of a neighbourhood (specification 2.21).
-pub(in super::super) const MAX_SIZE: usize = 10;
+pub(super) const MAX_SIZE: usize = 10;
 
 choice! {
     /// The shape of a neighbourhood.
@@ -18,7 +18,7 @@ choice! {
 impl Neighbourhood {
     /// The steps to all neighbours, to the right and down, in the order of rows from above and of
     /// columns from the left. The cell itself is not its neighbour.
-    pub(in super::super) fn steps(self, size: i32) -> impl Iterator<Item = (isize, isize)> {
+    pub(super) fn steps(self, size: i32) -> impl Iterator<Item = (isize, isize)> {
         let size = size as isize;
         (-size..=size).flat_map(move |dy| {
             let reach = match self {

@@ -1,8 +1,13 @@
-//! Weighted sums of the pixels around each pixel, and reading rows around their ends.
+//! Convolution: weighted sums of the pixels around each pixel.
 //!
-//! Specification 2.0 (CONV). A matrix is a list of taps, those of weight 0 left out. Sums are made
-//! for a piece of a row at a time: a few taps in one go, while the sums of several pixels stay in
-//! registers, and always in the same order, so that every split of the work gives the same bits.
+//! Specification 2.0 (CONV). The matrix is not mirrored, sums are neither scaled nor shifted, and
+//! pixels are read around the edges. A [`Matrix`] is a list of taps, those of weight 0 left out.
+//! Sums are made for a piece of a row at a time: a few taps in one go, while the sums of several
+//! pixels stay in registers, and always in the same order, so that every split of the work gives
+//! the same bits.
+//!
+//! Matrices whose weights follow a rule (squares, slopes) slide instead: see
+//! [`box_sum`](super::box_sum).
 //!
 //! PT Designer sums levels 0..255 in double precision, and then truncates. Single precision could
 //! end on the other side of a level; so it is taken in 8-bit precision only for matrices whose sums
@@ -10,13 +15,17 @@
 
 use std::ops::{Add, Mul};
 
-use crate::block::prelude::*;
+use super::{Image, ring};
+use crate::math::{
+    convert,
+    levels::{self, Levels},
+};
 
 /// Pixels that are computed side by side.
 const PIECE: usize = 64;
 
 /// The most columns and rows of a matrix.
-pub(super) const MAX_SIDE: usize = 16;
+pub const MAX_SIDE: usize = 16;
 
 /// A piece of a row with what a matrix reads beyond its end.
 const PIECE_AND_MARGIN: usize = PIECE + MAX_SIDE - 1;
@@ -25,7 +34,7 @@ const PIECE_AND_MARGIN: usize = PIECE + MAX_SIDE - 1;
 const GROUP: usize = 9;
 
 /// A number that sums are made of.
-pub(super) trait Number: Copy + Add<Output = Self> + Mul<Output = Self> {
+trait Number: Copy + Add<Output = Self> + Mul<Output = Self> {
     const ZERO: Self;
     /// The nearest number of this kind.
     fn nearest(value: f64) -> Self;
@@ -83,15 +92,18 @@ impl Number for f64 {
 
 /// Weights of the pixels around a pixel.
 #[derive(Debug)]
-pub(super) enum Matrix {
-    /// Whose sums are made in single precision.
+pub struct Matrix(Sums);
+
+#[derive(Debug)]
+enum Sums {
+    /// Made in single precision.
     Single(Taps<f32>),
-    /// Whose sums are made in double precision.
+    /// Made in double precision.
     Double(Taps<f64>),
 }
 
 #[derive(Debug)]
-pub(super) struct Taps<T> {
+struct Taps<T> {
     /// Columns from the first one to the middle.
     left: usize,
     /// Columns of the matrix.
@@ -112,27 +124,23 @@ struct Tap<T> {
 }
 
 impl Matrix {
-    /// A matrix of `width` columns with those weights, row by row.
-    pub(super) fn new<L: Levels>(width: usize, weights: &[f64]) -> Self {
-        if !L::EIGHT_BIT || is_exact_in_single(weights) {
-            Self::Single(Taps::new(width, weights))
+    /// A matrix of `width` columns with those weights, row by row. The pixel itself is at column
+    /// and row number ⌊size/2⌋. No side is longer than [`MAX_SIDE`].
+    #[must_use]
+    pub fn new<L: Levels>(width: usize, weights: &[f64]) -> Self {
+        Self(if !L::EIGHT_BIT || is_exact_in_single(weights) {
+            Sums::Single(Taps::new(width, weights))
         } else {
-            Self::Double(Taps::new(width, weights))
-        }
+            Sums::Double(Taps::new(width, weights))
+        })
     }
 
-    /// Writes the sums for a row of a channel of `image`.
+    /// Writes the sums for row `y` of a channel of `image`.
     #[inline(always)]
-    pub(super) fn write<L: Levels>(
-        &self,
-        image: &Image,
-        channel: usize,
-        cx: &RowContext<'_>,
-        out: &mut [f32],
-    ) {
-        match self {
-            Self::Single(taps) => taps.write::<L>(image, channel, cx, out),
-            Self::Double(taps) => taps.write::<L>(image, channel, cx, out),
+    pub fn write<L: Levels>(&self, image: &Image, channel: usize, y: u32, out: &mut [f32]) {
+        match &self.0 {
+            Sums::Single(taps) => taps.write::<L>(image, channel, y, out),
+            Sums::Double(taps) => taps.write::<L>(image, channel, y, out),
         }
     }
 }
@@ -167,20 +175,14 @@ impl<T: Number> Taps<T> {
     }
 
     #[inline(always)]
-    fn write<L: Levels>(
-        &self,
-        image: &Image,
-        channel: usize,
-        cx: &RowContext<'_>,
-        out: &mut [f32],
-    ) {
+    fn write<L: Levels>(&self, image: &Image, channel: usize, y: u32, out: &mut [f32]) {
         let mut near = [[T::ZERO; PIECE_AND_MARGIN]; MAX_SIDE];
         for (piece, out) in out.chunks_mut(PIECE).enumerate() {
             let first = (piece * PIECE) as i64 - self.left as i64;
             for (near, below) in near.iter_mut().zip(&self.rows) {
-                let y = convert::wrap_near(i64::from(cx.y) + below, cx.height);
+                let y = convert::wrap_near(i64::from(y) + below, image.height());
                 let wanted = &mut near[..out.len() + self.width - 1];
-                copy_ring(image.row(channel, y), first, load::<L, T>, wanted);
+                ring::copy(image.row(channel, y), first, load::<L, T>, wanted);
             }
             let mut sums = [T::ZERO; PIECE];
             for taps in self.taps.chunks(GROUP) {
@@ -240,76 +242,6 @@ fn add<T: Number, const COUNT: usize>(
     }
 }
 
-/// Writes `load` of the numbers of a ring from place `first` on, which may be some turns back.
-#[inline(always)]
-pub(super) fn copy_ring<S: Copy, T>(ring: &[S], first: i64, load: impl Fn(S) -> T, out: &mut [T]) {
-    let mut rest = out;
-    let mut start = convert::index(first.rem_euclid(ring.len() as i64));
-    while !rest.is_empty() {
-        let count = rest.len().min(ring.len() - start);
-        let (piece, behind) = rest.split_at_mut(count);
-        for (out, number) in piece.iter_mut().zip(&ring[start..]) {
-            *out = load(*number);
-        }
-        (rest, start) = (behind, 0);
-    }
-}
-
-/// The definition of CONV, for tests that hold a block against it.
-#[cfg(test)]
-pub(super) mod naive {
-    use crate::{
-        block::testing::{Trial, image_of_levels},
-        math::convert,
-    };
-
-    /// Levels of no order, for an image of that many pixels.
-    pub(in crate::blocks::filter) fn noise(pixels: u32) -> Vec<u8> {
-        let mut number = 7_u32;
-        let mut next = || {
-            number = number.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-            number.to_be_bytes()[0]
-        };
-        (0..pixels).map(|_| next()).collect()
-    }
-
-    /// CONV of one channel, for offsets from -⌊size/2⌋ on in each direction,
-    /// column by column.
-    pub(in crate::blocks::filter) fn convolved(
-        levels: &[u8],
-        (width, height): (u32, u32),
-        matrix: (i64, i64),
-        weight: impl Fn(i64, i64) -> f64,
-    ) -> Vec<u8> {
-        let mut out = Vec::new();
-        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
-            let mut sum = 0.0;
-            for i in -(matrix.0 / 2)..matrix.0 - matrix.0 / 2 {
-                for j in -(matrix.1 / 2)..matrix.1 - matrix.1 / 2 {
-                    let column = convert::wrap(i64::from(x) + i, width);
-                    let row = convert::wrap(i64::from(y) + j, height);
-                    sum += weight(i, j) * f64::from(levels[(row * width + column) as usize]);
-                }
-            }
-            out.push(convert::clamped_byte(convert::truncate64_to_i32(sum)));
-        }
-        out
-    }
-
-    /// A square of `radius` pixels in each direction.
-    pub(in crate::blocks::filter) fn square(radius: i32) -> (i64, i64) {
-        (2 * i64::from(radius) + 1, 2 * i64::from(radius) + 1)
-    }
-
-    /// Specification 5: what becomes of a row 0…0|100 from x = 32|60 from x = 40 to 63, at x = 28
-    /// to 43, if all rows are like it.
-    pub(in crate::blocks::filter) fn of_the_test_row(trial: &Trial) -> Vec<u8> {
-        let row: Vec<u8> = (0..64).map(|x| [0, 0, 0, 0, 100, 60, 60, 60][x / 8]).collect();
-        let image = image_of_levels(64, &[&row.repeat(64)]);
-        trial.clone().input(0, image).levels(0)[640 + 28..][..16].to_vec()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -318,25 +250,13 @@ mod tests {
     #[test]
     fn single_precision_is_for_weights_that_it_sums_exactly() {
         let is_single =
-            |weights: &[f64]| matches!(Matrix::new::<EightBit>(1, weights), Matrix::Single(_));
+            |weights: &[f64]| matches!(Matrix::new::<EightBit>(1, weights).0, Sums::Single(_));
         assert!(is_single(&[1.0, -2.0, 0.25, 0.0]));
         assert!(is_single(&[65_793.0]));
         assert!(!is_single(&[65_794.0]));
         assert!(!is_single(&[0.1]));
         assert!(is_single(&[1.0, 1.0 / 65_536.0]));
         assert!(!is_single(&[1.0, 1.0 / 131_072.0]));
-        assert!(matches!(Matrix::new::<Continuous>(1, &[0.1]), Matrix::Single(_)));
-    }
-
-    #[test]
-    fn rings_are_copied_around_their_ends() {
-        let copied = |first| {
-            let mut out = [0; 8];
-            copy_ring(&[1, 2, 3], first, |number| 2 * number, &mut out);
-            out
-        };
-        assert_eq!(copied(0), [2, 4, 6, 2, 4, 6, 2, 4]);
-        assert_eq!(copied(-7), copied(2));
-        assert_eq!(copied(2), [6, 2, 4, 6, 2, 4, 6, 2]);
+        assert!(matches!(Matrix::new::<Continuous>(1, &[0.1]).0, Sums::Single(_)));
     }
 }
