@@ -9,7 +9,7 @@ use std::{
 
 use ptlib_plugin_abi::*;
 
-use super::host::guarded;
+use super::{host::guarded, making::Making};
 use crate::{
     block::{Context, Files, LogLevel, Progress},
     error::{Error, ErrorKind},
@@ -28,11 +28,19 @@ pub(super) struct Means<'a> {
     pub(super) files: Option<&'a dyn Files>,
     pub(super) limits: &'a Limits,
     pub(super) tell: &'a (dyn Fn(LogLevel, Error) + Sync),
+    /// What is made besides images; `None` where nothing is.
+    pub(super) making: Option<&'a Making<'a>>,
 }
 
 impl<'a> Means<'a> {
     pub(super) fn of(cx: &Context<'a>) -> Self {
-        Self { progress: cx.progress, files: Some(cx.files), limits: cx.limits, tell: cx.tell }
+        Self {
+            progress: cx.progress,
+            files: Some(cx.files),
+            limits: cx.limits,
+            tell: cx.tell,
+            making: None,
+        }
     }
 }
 

@@ -9,7 +9,10 @@ use std::{collections::BTreeSet, ffi::c_char};
 
 use ptlib_plugin_abi::{
     PTLP_ABI_MAJOR, ptlp_block, ptlp_entry, ptlp_param, ptlp_port,
-    values::{PTL_KIND_GRADIENT, PTL_KIND_IMAGE, PTL_KIND_TEXT},
+    values::{
+        PTL_KIND_GRADIENT, PTL_KIND_IMAGE, PTL_KIND_MESH, PTL_KIND_POINTS, PTL_KIND_STRANDS,
+        PTL_KIND_TEXT,
+    },
 };
 
 use crate::{
@@ -433,6 +436,9 @@ pub(super) fn kind_of(number: u32) -> Option<Kind> {
         PTL_KIND_IMAGE => Some(Kind::Image),
         PTL_KIND_GRADIENT => Some(Kind::Gradient),
         PTL_KIND_TEXT => Some(Kind::Text),
+        PTL_KIND_POINTS => Some(Kind::Points),
+        PTL_KIND_MESH => Some(Kind::Mesh),
+        PTL_KIND_STRANDS => Some(Kind::Strands),
         _ => None,
     }
 }

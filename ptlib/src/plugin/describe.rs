@@ -84,6 +84,7 @@ fn implementation(
     if table.prepare.is_none() && table.param_count > 0 {
         return Err(reader.fault("prepare", "is NULL, but there are parameters, which come there"));
     }
+    let kinds: Vec<_> = about.outputs.iter().map(|port| port.kind).collect();
     let threads = match table.thread_mode {
         PTLP_THREADS_TILES => ThreadMode::Tiles,
         PTLP_THREADS_INSTANCE => ThreadMode::Instance,
@@ -93,7 +94,7 @@ fn implementation(
     let reads_anywhere = about.inputs.iter().any(|port| port.access == Access::Anywhere);
     match table.shape {
         PTLP_SHAPE_WHOLE => {
-            let factory = Factory::leaked(table, threads);
+            let factory = Factory::leaked(table, threads, kinds);
             return Ok((Implementation::Whole(factory), factory.foreign()));
         }
         PTLP_SHAPE_POINT if reads_anywhere => {
@@ -118,7 +119,7 @@ fn implementation(
         );
         return Err(reader.fault("outputs", message));
     }
-    let factory = Factory::leaked(table, threads);
+    let factory = Factory::leaked(table, threads, kinds);
     Ok((Implementation::Rows(factory), factory.foreign()))
 }
 

@@ -15,6 +15,7 @@ use ptlib_plugin_abi::{ptlp_block, ptlp_tile, ptlp_wire};
 use super::{
     call::{Call, Means},
     host::host,
+    making::Making,
     setup::Setup,
     wires::{NO_TILE, NO_WIRE, image_wire, to_write},
 };
@@ -27,7 +28,7 @@ use crate::{
     limits::Limits,
     math::{convert::count, levels::Precision},
     params::ParamValue,
-    value::{Image, Value},
+    value::{Image, Kind, Value},
 };
 
 /// Who may be inside of a block type's functions at a time.
@@ -45,6 +46,8 @@ pub(super) enum ThreadMode {
 pub(super) struct Foreign {
     table: &'static ptlp_block,
     threads: ThreadMode,
+    /// The kinds of its outputs.
+    outputs: Vec<Kind>,
     /// Held around every call, in mode [`Global`](ThreadMode::Global).
     global: Mutex<()>,
 }
@@ -57,9 +60,13 @@ const MAX_MESSAGES: usize = 100;
 
 impl Factory {
     /// Leaks the block type: it is made once in a process.
-    pub(super) fn leaked(table: &'static ptlp_block, threads: ThreadMode) -> &'static Self {
-        let foreign = Box::leak(Box::new(Foreign { table, threads, global: Mutex::new(()) }));
-        Box::leak(Box::new(Self(foreign)))
+    pub(super) fn leaked(
+        table: &'static ptlp_block,
+        threads: ThreadMode,
+        outputs: Vec<Kind>,
+    ) -> &'static Self {
+        let foreign = Foreign { table, threads, outputs, global: Mutex::new(()) };
+        Box::leak(Box::new(Self(Box::leak(Box::new(foreign)))))
     }
 
     pub(super) fn foreign(&self) -> &'static Foreign {
@@ -232,7 +239,13 @@ impl RowKernel for Rows {
                 messages.push((level, what));
             }
         };
-        let means = Means { progress: cx.progress, files: None, limits: &self.limits, tell: &tell };
+        let means = Means {
+            progress: cx.progress,
+            files: None,
+            limits: &self.limits,
+            tell: &tell,
+            making: None,
+        };
         let call = Call::new(means);
         if self.setup.inputs().len() + self.outputs.len() <= FEW_PORTS {
             self.write::<FEW_PORTS>(&call, cx, inputs, out)
@@ -359,6 +372,8 @@ impl WholeFactory for Factory {
     ) -> Result<Vec<Value>, Error> {
         let setup = Setup::new(values, precision, cx)?;
         let instance = self.0.prepared(&setup, Means::of(cx))?;
+        let kinds = &self.0.outputs;
+        let making = Making::new(kinds, cx.inputs);
         let images = cx.planes.outputs.iter().map(|planes| match planes {
             0 => Ok(None),
             planes => image(cx, *planes).map(Some),
@@ -366,11 +381,19 @@ impl WholeFactory for Factory {
         let mut images = images.collect::<Result<Vec<_>, _>>()?;
         let tile = |image: &mut Option<Image>| image.as_mut().map_or(NO_TILE, to_write);
         let tiles: Vec<_> = images.iter_mut().map(tile).collect();
-        let wires: Vec<_> = tiles.iter().map(|tile| image_wire(tile)).collect();
+        let wires = tiles.iter().zip(kinds).map(|(tile, kind)| match kind {
+            Kind::Image => image_wire(tile),
+            kind => ptlp_wire { kind: *kind as u32, ..NO_WIRE },
+        });
+        let wires: Vec<_> = wires.collect();
         let pointers: Vec<_> = wires.iter().map(ptr::from_ref).collect();
-        let call = Call::new(Means::of(cx));
+        let call = Call::new(Means { making: Some(&making), ..Means::of(cx) });
         instance.compute(&call, setup.inputs(), &pointers)?;
-        Ok(images.into_iter().flatten().map(Value::Image).collect())
+        let made = images.into_iter().enumerate().map(|(output, image)| match image {
+            Some(image) => Ok(Value::Image(image)),
+            None => making.take(output),
+        });
+        made.collect()
     }
 
     fn is_grey(&self, _: &[ParamValue]) -> Result<bool, Error> {

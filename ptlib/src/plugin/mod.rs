@@ -25,6 +25,7 @@ mod host;
 pub(crate) mod import;
 mod library;
 mod load;
+mod making;
 pub mod probe;
 mod search;
 mod services;

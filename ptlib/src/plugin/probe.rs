@@ -179,8 +179,13 @@ impl Probe<'_> {
         faults: &mut Vec<String>,
     ) -> Result<Vec<Vec<Guarded>>, Error> {
         let limits = Limits::default();
-        let means =
-            Means { progress: &Undisturbed, files: None, limits: &limits, tell: &|_, _| () };
+        let means = Means {
+            progress: &Undisturbed,
+            files: None,
+            limits: &limits,
+            tell: &|_, _| (),
+            making: None,
+        };
         let whole = |port: usize| {
             let image = self.inputs.get(port)?.clone()?;
             (self.spec.access(port) == Access::Anywhere).then_some(Value::Image(image))

@@ -11,6 +11,7 @@ use ptlib_plugin_abi::{services::*, *};
 use super::{
     call::{Call, call_of, said},
     host::guarded,
+    making::VALUES,
 };
 use crate::{
     block::LogLevel,
@@ -25,12 +26,13 @@ struct Service(&'static CStr, *const c_void);
 unsafe impl Sync for Service {}
 
 /// All services.
-static SERVICES: [Service; 6] = [
+static SERVICES: [Service; 7] = [
     Service(PTLP_LOG, (&raw const LOG).cast()),
     Service(PTLP_PARALLEL, (&raw const PARALLEL).cast()),
     Service(PTLP_SCRATCH, (&raw const SCRATCH).cast()),
     Service(PTLP_NOISE, (&raw const NOISE).cast()),
     Service(PTLP_MATH, (&raw const MATH).cast()),
+    Service(PTLP_VALUES, (&raw const VALUES).cast()),
     Service(PTLP_FILE, (&raw const FILE).cast()),
 ];
 

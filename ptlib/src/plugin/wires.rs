@@ -7,6 +7,7 @@ use ptlib_plugin_abi::{
     values::{PTL_KIND_IMAGE, PTL_KIND_NONE},
 };
 
+use super::view::View;
 use crate::{
     math::convert::count,
     value::{Image, Value},
@@ -46,6 +47,7 @@ pub(super) struct Wires {
     _wires: Box<[ptlp_wire]>,
     _tiles: Box<[ptlp_tile]>,
     _values: Vec<Option<Value>>,
+    _views: Vec<Option<View>>,
 }
 
 // SAFETY: the pointers lead to boxes and values of the same object, which nobody changes.
@@ -71,10 +73,16 @@ impl Wires {
             },
         });
         let tiles: Box<[ptlp_tile]> = tiles.collect();
-        let wires = values.iter().zip(&tiles).map(|(value, tile)| match value {
-            Some(Value::Image(_)) => image_wire(tile),
-            None if tile.channels > 0 => image_wire(tile),
-            Some(_) | None => NO_WIRE,
+        let views: Vec<_> = values.iter().map(|value| View::of(value.as_ref()?)).collect();
+        let wires = values.iter().zip(&tiles).zip(&views).map(|((value, tile), view)| {
+            match (value, view) {
+                (Some(value), Some(view)) => {
+                    ptlp_wire { kind: value.kind() as u32, value: view.as_ptr(), ..NO_WIRE }
+                }
+                (Some(_), None) => image_wire(tile),
+                (None, _) if tile.channels > 0 => image_wire(tile),
+                (None, _) => NO_WIRE,
+            }
         });
         let wires: Box<[ptlp_wire]> = wires.collect();
         Self {
@@ -82,6 +90,7 @@ impl Wires {
             _wires: wires,
             _tiles: tiles,
             _values: values.to_vec(),
+            _views: views,
         }
     }
 
