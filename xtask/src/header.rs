@@ -9,7 +9,7 @@ use std::{fs, path::PathBuf};
 use crate::{Result, repository};
 
 /// The sources, in the order in which the header explains things.
-const SOURCES: [&str; 18] = [
+const SOURCES: [&str; 19] = [
     "status",
     "types",
     "version",
@@ -26,6 +26,7 @@ const SOURCES: [&str; 18] = [
     "cancel",
     "image",
     "value",
+    "value_view",
     "graph_values",
     "bytes",
 ];

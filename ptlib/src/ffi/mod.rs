@@ -81,6 +81,7 @@ mod status;
 mod structs;
 mod types;
 mod value;
+mod value_view;
 mod version;
 
 pub use block_type::*;
@@ -100,4 +101,5 @@ pub use log::*;
 pub use status::*;
 pub use types::*;
 pub use value::*;
+pub use value_view::*;
 pub use version::*;
