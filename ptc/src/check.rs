@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use ptlib::{Engine, EngineOptions, Error, Graph};
+use ptlib::{Engine, EngineOptions, Error, ErrorKind, Graph};
 use serde::Serialize;
 
 use crate::{
@@ -87,6 +87,10 @@ fn check(engine: &Engine, path: &Path) -> Vec<Finding> {
     match engine.open_graph(path) {
         Ok(reading) => {
             let mut findings = findings(&reading.warnings, &faults_of(&reading.graph));
+            let lacking = |finding: &&mut Finding| lacks_value(&reading.graph, &finding.error);
+            for finding in findings.iter_mut().filter(lacking) {
+                finding.severity = Severity::Warning;
+            }
             findings.extend(nothing_wanted(&reading.graph));
             findings.sort_by_key(Finding::position_or_last);
             findings
@@ -98,6 +102,13 @@ fn check(engine: &Engine, path: &Path) -> Vec<Finding> {
 fn faults_of(graph: &Graph) -> Vec<Error> {
     let wanted = graph.results().chain(graph.writers());
     wanted.filter_map(|block| graph.validate(block).err()).collect()
+}
+
+/// Whether the fault is a value that somebody may still set: the file is as it should be.
+fn lacks_value(graph: &Graph, fault: &Error) -> bool {
+    let block = fault.place().handle;
+    fault.kind() == ErrorKind::Unconnected
+        && graph.inputs().any(|(input, _)| Some(input.to_raw()) == block)
 }
 
 /// A graph without results is no fault, but few people mean that.

@@ -42,6 +42,15 @@ fn what_cannot_be_computed_is_an_error() {
 }
 
 #[test]
+fn a_value_that_is_not_set_yet_is_worth_a_warning() {
+    let folder = Folder::new("check_inputs");
+    let blocks = format!("<block type=\"image input\" id=\"0\"/>{}", end("1", "0"));
+    folder.write("a.xml", &graph(&blocks));
+    let run = folder.ptc(&["check", "a.xml"]).ends_with(0);
+    assert!(run.out.starts_with("a.xml: warning: block 0 (image input): "), "{run:#?}");
+}
+
+#[test]
 fn a_graph_without_results_is_worth_a_warning() {
     let folder = Folder::new("check_empty");
     folder.write("a.xml", &graph(""));

@@ -27,6 +27,7 @@ const SOURCES: [&str; 19] = [
     "cancel",
     "image",
     "value",
+    "value_view",
     "graph_values",
     "bytes",
 ];

@@ -82,6 +82,7 @@ mod status;
 mod structs;
 mod types;
 mod value;
+mod value_view;
 mod version;
 
 pub use block_type::*;
@@ -102,4 +103,5 @@ pub use plugin::*;
 pub use status::*;
 pub use types::*;
 pub use value::*;
+pub use value_view::*;
 pub use version::*;
