@@ -9,7 +9,7 @@ use std::{fs, path::PathBuf};
 use crate::{Result, repository};
 
 /// The sources, in the order in which the header explains things.
-const SOURCES: [&str; 19] = [
+const SOURCES: [&str; 20] = [
     "status",
     "types",
     "version",

@@ -177,6 +177,9 @@ pub struct About {
     pub role: Role,
     /// Whether another seed gives another picture.
     pub uses_seed: bool,
+    /// Whether the same inputs and parameters always give the same: all but some blocks of
+    /// plug-ins, whose results, and what follows from them, are never taken from the cache.
+    pub is_deterministic: bool,
     /// Whether its output tiles.
     pub tiling: Tiling,
     /// Which of its lengths count pixels, so that the picture depends on the resolution; empty if
@@ -195,6 +198,7 @@ impl About {
         outputs: &[],
         role: Role::Inner,
         uses_seed: false,
+        is_deterministic: true,
         tiling: Tiling::Always,
         in_pixels: "",
     };

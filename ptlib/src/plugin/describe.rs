@@ -5,7 +5,7 @@ use ptlib_plugin_abi::*;
 
 use super::{
     check::{Block, Param, Port},
-    foreign::{Factory, Foreign, ThreadMode},
+    foreign::{Factory, Foreign, GraphInput, ThreadMode},
 };
 use crate::{
     block::{
@@ -22,10 +22,12 @@ use crate::{
 pub(super) struct Described {
     pub(super) family: &'static str,
     pub(super) spec: &'static BlockSpec,
-    pub(super) foreign: &'static Foreign,
+    /// What computes it; `None` for an input of graphs, whose value the caller gives.
+    pub(super) foreign: Option<&'static Foreign>,
 }
 
-const KNOWN_FLAGS: u32 = PTLP_BLOCK_USES_SEED | PTLP_BLOCK_NOT_DETERMINISTIC;
+const KNOWN_FLAGS: u32 =
+    PTLP_BLOCK_USES_SEED | PTLP_BLOCK_GRAPH_INPUT | PTLP_BLOCK_NOT_DETERMINISTIC;
 
 /// The family and the description of a block type. What it points to is leaked: it is made once in
 /// a process.
@@ -35,6 +37,7 @@ const KNOWN_FLAGS: u32 = PTLP_BLOCK_USES_SEED | PTLP_BLOCK_NOT_DETERMINISTIC;
 pub(super) fn describe(block: &Block) -> Result<Described, Error> {
     let table = block.table;
     block.reader.flags(table.flags, KNOWN_FLAGS, "flags")?;
+    let is_input = table.flags & PTLP_BLOCK_GRAPH_INPUT != 0;
     let params = block.params.iter().map(param).collect::<Result<Vec<_>, _>>()?;
     let inputs = block.inputs.iter().map(input).collect::<Result<Vec<_>, _>>()?;
     let outputs = block.outputs.iter().map(|port| output(block, port));
@@ -46,8 +49,9 @@ pub(super) fn describe(block: &Block) -> Result<Described, Error> {
         summary: block.text(table.doc, "doc")?,
         inputs: leak(inputs),
         outputs: leak(outputs),
-        role: Role::Inner,
+        role: if is_input { Role::Input } else { Role::Inner },
         uses_seed: table.flags & PTLP_BLOCK_USES_SEED != 0,
+        is_deterministic: table.flags & PTLP_BLOCK_NOT_DETERMINISTIC == 0,
         tiling: match block.text(table.tiling_exception, "tiling_exception")? {
             "" => Tiling::Always,
             reason => Tiling::Except(reason),
@@ -57,7 +61,12 @@ pub(super) fn describe(block: &Block) -> Result<Described, Error> {
     if about.summary.is_empty() {
         return Err(block.reader.fault("doc", "says nothing"));
     }
-    let (implementation, foreign) = implementation(block, &about)?;
+    let (implementation, foreign) = if is_input {
+        (graph_input(block, &about)?, None)
+    } else {
+        let (implementation, foreign) = implementation(block, &about)?;
+        (implementation, Some(foreign))
+    };
     let family = match block.text(table.category, "category")? {
         "" => "plug-ins",
         family => family,
@@ -121,6 +130,20 @@ fn implementation(
     }
     let factory = Factory::leaked(table, threads, kinds);
     Ok((Implementation::Rows(factory), factory.foreign()))
+}
+
+/// A block that gives what the caller of the graph set, or what is at its one input.
+fn graph_input(block: &Block, about: &About) -> Result<Implementation, Error> {
+    let [output] = about.outputs else {
+        let count = about.outputs.len();
+        return Err(block.reader.fault("output_count", format!("is {count}, allowed 1 here")));
+    };
+    let is_default = |port: &InputPort| port.is_optional && port.kind == output.kind;
+    if about.inputs.len() > 1 || !about.inputs.iter().all(is_default) {
+        let message = "of an input of graphs may have one optional entry of the output's kind";
+        return Err(block.reader.fault("inputs", message));
+    }
+    Ok(Implementation::Whole(&GraphInput))
 }
 
 fn input(port: &Port) -> Result<InputPort, Error> {

@@ -142,7 +142,7 @@ impl Engine {
 pub(super) fn foreign_of(spec: &BlockSpec) -> Option<&'static Foreign> {
     let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     let mut blocks = known.values().flatten().flat_map(|plugin| &plugin.blocks);
-    blocks.find(|block| std::ptr::eq(block.spec, spec)).map(|block| block.foreign)
+    blocks.find(|block| std::ptr::eq(block.spec, spec))?.foreign
 }
 
 /// `error` with the name of the file before its message.

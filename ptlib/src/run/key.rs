@@ -1,5 +1,7 @@
 //! Keys of results: a hash of everything that a result depends on.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use crate::{
     block::BlockSpec,
     math::levels::Precision,
@@ -66,6 +68,13 @@ impl Key {
 impl KeyBuilder {
     fn number(&mut self, number: u64) {
         self.0.update(&number.to_le_bytes());
+    }
+
+    /// Makes the key another one than any before it.
+    pub(super) fn never_again(&mut self) {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        self.bytes(b"never again");
+        self.number(NEXT.fetch_add(1, Ordering::Relaxed));
     }
 
     pub(super) fn bytes(&mut self, bytes: &[u8]) {

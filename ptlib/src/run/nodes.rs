@@ -257,6 +257,9 @@ fn key(
 ) -> Result<Key, Error> {
     let values = node.block.values();
     let mut key = Key::of_block(spec, values, node.seed, purpose.working, purpose.precision);
+    if !spec.about.is_deterministic {
+        key.never_again();
+    }
     for (spec, value) in spec.params.iter().zip(values) {
         if let (ParamKind::Path(FileUse::Read), ParamValue::Text(path)) = (&spec.kind, value) {
             let bytes = purpose.files.read(path).map_err(|error| error.at_parameter(spec.id))?;
