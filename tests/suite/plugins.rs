@@ -21,7 +21,7 @@ fn folder() -> PathBuf {
 }
 
 /// Builds `tests/plugins/NAME.c` as a plug-in; `None` if there is no compiler.
-fn build(name: &str) -> Option<PathBuf> {
+pub(crate) fn build(name: &str) -> Option<PathBuf> {
     let _one = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
     let plugin = folder().join(format!("{name}.ptplugin.so"));
     let mut command = Command::new(tool("cc")?);
