@@ -14,6 +14,8 @@ mod picture;
 #[cfg(target_os = "linux")]
 mod plugin_abi;
 #[cfg(target_os = "linux")]
+mod plugin_faults;
+#[cfg(target_os = "linux")]
 mod plugin_values;
 #[cfg(target_os = "linux")]
 mod plugins;

@@ -1,6 +1,7 @@
 //! Plug-ins in C and in Rust, built here and loaded as a program would.
 
 use std::{
+    collections::BTreeSet,
     env, fs,
     path::{Path, PathBuf},
     process::Command,
@@ -14,7 +15,10 @@ use crate::abi::{root, run, scratch, tool};
 /// Only one test at a time builds.
 static BUILDING: Mutex<()> = Mutex::new(());
 
-fn folder() -> PathBuf {
+/// What was built in this run.
+static BUILT: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+
+pub(crate) fn folder() -> PathBuf {
     let folder = scratch().join("plugins");
     fs::create_dir_all(&folder).unwrap();
     folder
@@ -22,19 +26,28 @@ fn folder() -> PathBuf {
 
 /// Builds `tests/plugins/NAME.c` as a plug-in; `None` if there is no compiler.
 pub(crate) fn build(name: &str) -> Option<PathBuf> {
+    build_with(name, name, &[])
+}
+
+/// The same under another name, with further flags.
+pub(crate) fn build_with(source: &str, name: &str, flags: &[&str]) -> Option<PathBuf> {
     let _one = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
     let plugin = folder().join(format!("{name}.ptplugin.so"));
-    let mut command = Command::new(tool("cc")?);
-    command.args(["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic-errors", "-Werror"]);
-    command.args(["-shared", "-fPIC", "-fvisibility=hidden"]);
-    command.arg("-I").arg(root().join("include"));
-    command.arg(root().join(format!("tests/plugins/{name}.c"))).arg("-o").arg(&plugin);
-    run(&mut command);
+    let compiler = tool("cc")?;
+    // A library that is loaded must not change under the feet of other tests.
+    if BUILT.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned()) {
+        let mut command = Command::new(compiler);
+        command.args(["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic-errors", "-Werror"]);
+        command.args(["-shared", "-fPIC", "-fvisibility=hidden"]).args(flags);
+        command.arg("-I").arg(root().join("include"));
+        command.arg(root().join(format!("tests/plugins/{source}.c"))).arg("-o").arg(&plugin);
+        run(&mut command);
+    }
     Some(plugin)
 }
 
 /// The plug-in in Rust, which cargo built with these tests, under the name of a plug-in.
-fn rust_plugin() -> PathBuf {
+pub(crate) fn rust_plugin() -> PathBuf {
     let _one = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
     let plugin = folder().join("rust.ptplugin.so");
     let own = env::current_exe().unwrap();
