@@ -127,9 +127,9 @@ impl PointBlock for Voronoi {
         let needed = if params.shows == Shows::Ratio { 2 } else { 1 };
         let cells = match params.metric {
             _ if points.is_empty() => None,
-            Metric::Euclidean => Some(Cells::new::<Euclidean>(points, needed, cx)?),
-            Metric::Taxicab => Some(Cells::new::<Taxicab>(points, needed, cx)?),
-            Metric::Chebyshev => Some(Cells::new::<Chebyshev>(points, needed, cx)?),
+            Metric::Euclidean => Some(Cells::new::<Euclidean>(&points, needed, cx)?),
+            Metric::Taxicab => Some(Cells::new::<Taxicab>(&points, needed, cx)?),
+            Metric::Chebyshev => Some(Cells::new::<Chebyshev>(&points, needed, cx)?),
         };
         let size = u32::midpoint(cx.width, cx.height);
         let unit = 5.0 / convert::pixels(size);

@@ -1,6 +1,8 @@
 //! Points by the square of tiles that they lie in: where the search of [`cutting`](super::cutting)
 //! starts.
 
+use std::ops::Range;
+
 use super::{
     SIDE,
     cutting::{Candidates, Torus},
@@ -22,7 +24,7 @@ pub(super) struct Buckets {
 }
 
 /// As many points lie in a bucket in the mean, at most.
-const POINTS_PER_BUCKET: usize = 12;
+const POINTS_PER_BUCKET: usize = 1;
 
 impl Buckets {
     /// The points of an image of that many tiles.
@@ -31,8 +33,10 @@ impl Buckets {
         let is_inside = |places: &[f32], size| places.iter().all(|at| (0.0..size).contains(at));
         let [width, height] = torus.size;
         let mut side = whole;
-        if is_inside(&points.x, width) && is_inside(&points.y, height) {
-            let count = points.numbers.len();
+        if is_inside(&points.x[..points.count], width)
+            && is_inside(&points.y[..points.count], height)
+        {
+            let count = points.count;
             while side > 1 && count * side * side > POINTS_PER_BUCKET * tiles[0] * tiles[1] {
                 side /= 2;
             }
@@ -50,7 +54,8 @@ impl Buckets {
                 .map(|(at, count)| (convert::truncate_to_index(at) / (side * SIDE)).min(count - 1));
             row * count[0] + column
         };
-        let places: Vec<_> = points.x.iter().zip(&points.y).map(|(x, y)| bucket(*x, *y)).collect();
+        let all = points.x.iter().zip(&points.y).take(points.count);
+        let places: Vec<_> = all.map(|(x, y)| bucket(*x, *y)).collect();
         let mut starts = vec![0; count[0] * count[1] + 1];
         for place in &places {
             starts[place + 1] += 1;
@@ -64,42 +69,58 @@ impl Buckets {
             order[next[*place]] = i;
             next[*place] += 1;
         }
-        let points = Candidates {
-            numbers: order.iter().map(|i| points.numbers[*i]).collect(),
-            x: order.iter().map(|i| points.x[*i]).collect(),
-            y: order.iter().map(|i| points.y[*i]).collect(),
-        };
+        let points = points.ordered(&order);
         Self { points, starts, count, side }
     }
 
-    /// Writes the points of the bucket at tile (`x`, `y`) and of `rings` rings of buckets around
-    /// it. Returns how far in one direction all other points are from it at least.
+    /// Writes the points of the bucket at `tile` and of `rings` rings of buckets around it. Returns
+    /// how far in one direction all other points are from it at least.
     pub(super) fn around(
         &self,
-        [x, y]: [usize; 2],
+        tile: [usize; 2],
         rings: usize,
         torus: Torus,
         near: &mut Candidates,
     ) -> f32 {
-        near.clear();
-        let [columns, rows] = [(x, self.count[0]), (y, self.count[1])].map(|(first, count)| {
-            let wanted = 2 * rings + 1;
-            let first = first / self.side + rings.div_ceil(count) * count - rings;
-            if wanted < count { (first % count, wanted) } else { (0, count) }
+        let side = convert::position(self.side * SIDE);
+        near.count = 0;
+        // No pixel of the bucket has more than half a turn to any of the points.
+        near.is_straight = [0, 1]
+            .iter()
+            .all(|axis| convert::position(2 * (rings + 1)) * side <= torus.size[*axis]);
+        let [columns, rows] = [0, 1].map(|axis| {
+            let own = tile[axis] >> self.side.trailing_zeros();
+            let turn = if near.is_straight { torus.size[axis] } else { 0.0 };
+            pieces(own, rings, self.count[axis], turn)
         });
-        let (right, wrapped) = (self.count[0].min(columns.0 + columns.1), columns.0 + columns.1);
-        for row in (rows.0..rows.0 + rows.1).map(|row| row % self.count[1]) {
-            let row = row * self.count[0];
-            let ends = |from: usize, to: usize| self.starts[row + from]..self.starts[row + to];
-            near.append(&self.points, ends(columns.0, right));
-            near.append(&self.points, ends(0, wrapped - right));
+        for (rows, down) in &rows {
+            for row in rows.clone() {
+                let starts = &self.starts[row * self.count[0]..][..=self.count[0]];
+                for (columns, right) in columns.iter().filter(|(columns, _)| !columns.is_empty()) {
+                    let places = starts[columns.start]..starts[columns.end];
+                    near.append(&self.points, places, [*right, *down]);
+                }
+            }
         }
-        if columns.1 == self.count[0] && rows.1 == self.count[1] {
+        if self.count.iter().all(|count| 2 * rings + 1 >= *count) {
             return f32::INFINITY;
         }
         // The last bucket of a row or column may be narrower than the others.
-        let side = convert::position(self.side * SIDE);
         let missing = [0, 1].map(|i| convert::position(self.count[i]) * side - torus.size[i]);
         convert::position(rings) * side - greater(missing[0], missing[1])
+    }
+}
+
+/// Of `count` buckets in a circle, one and `rings` on each side of it: in two pieces, since there
+/// may be an edge between them. How far to move the points of each piece to have them where they
+/// are without the edge, for a circle of length `turn`.
+fn pieces(own: usize, rings: usize, count: usize, turn: f32) -> [(Range<usize>, f32); 2] {
+    let end = own + rings + 1;
+    if 2 * rings + 1 >= count {
+        [(0..count, 0.0), (0..0, 0.0)]
+    } else if own < rings {
+        [(own + count - rings..count, -turn), (0..end, 0.0)]
+    } else {
+        [(own - rings..end.min(count), 0.0), (0..end.saturating_sub(count), turn)]
     }
 }

@@ -9,17 +9,19 @@
 
 use std::{marker::PhantomData, ops::Range};
 
-use super::{Measure, Point, SIDE, around, buckets::Buckets, greater, lesser};
+use super::{
+    Measure, Point, SIDE, around,
+    buckets::Buckets,
+    lesser,
+    lists::{GROUP, Part, add, least_two},
+};
 use crate::block::prelude::*;
 
 /// A square with at most this many points is not cut further.
-const FEW: usize = 3;
+const FEW: usize = GROUP;
 
-/// The image is cut into this many parts in each direction, and up to the square of it in all.
-const PARTS_ACROSS: usize = 4;
-
-/// The most parts.
-pub(super) const PARTS: u64 = (PARTS_ACROSS * PARTS_ACROSS) as u64;
+/// Candidates of a square come from so many rings of buckets around its own at first.
+const FIRST_RINGS: usize = 2;
 
 /// What all squares have in common.
 #[derive(Debug, Clone, Copy)]
@@ -72,107 +74,151 @@ struct Area {
     size: [f32; 2],
 }
 
-/// Points that may be among the nearest ones of the pixels of a square.
+/// Points that may be among the nearest ones of the pixels of a square. What its vectors hold after
+/// the points has no meaning, but is there, so that registers can be filled.
 #[derive(Debug, Default)]
 pub(super) struct Candidates {
+    pub(super) count: usize,
     pub(super) numbers: Vec<u32>,
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
+    /// Whether from each pixel of the square these places are the nearest ones that the points
+    /// have on the torus, so that nothing needs to look the other way around.
+    pub(super) is_straight: bool,
 }
 
 impl Candidates {
     /// Those of these numbers.
     pub(super) fn of(points: &[Point], numbers: &[u32]) -> Self {
-        let chosen = numbers.iter().map(|i| &points[*i as usize]);
-        let (x, y) = chosen.map(|point| (point.x, point.y)).unzip();
-        Self { numbers: numbers.to_vec(), x, y }
-    }
-
-    pub(super) fn append(&mut self, other: &Self, range: Range<usize>) {
-        self.numbers.extend_from_slice(&other.numbers[range.clone()]);
-        self.x.extend_from_slice(&other.x[range.clone()]);
-        self.y.extend_from_slice(&other.y[range]);
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.numbers.clear();
-        self.x.clear();
-        self.y.clear();
-    }
-}
-
-/// A part of the image: its squares that are not cut further, and the points that matter there.
-#[derive(Debug)]
-pub(super) struct Part {
-    square: Square,
-    /// Tiles of the image across and down.
-    tiles: [usize; 2],
-    /// How many members its lists may have together.
-    room: usize,
-    /// Squares, and where their lists in `members` end; each starts where the one before ends.
-    pub(super) lists: Vec<(Square, usize)>,
-    /// Numbers of points; where only the nearest one is needed, in rising order in each list.
-    pub(super) members: Vec<u32>,
-}
-
-impl Part {
-    /// All parts of an image of that many tiles, with room for `most` members in all.
-    pub(super) fn all(across: usize, down: usize, most: usize) -> Vec<Self> {
-        let whole = across.max(down).next_power_of_two();
-        let side = (whole / PARTS_ACROSS).max(1);
-        let first = |count: usize| (0..count).step_by(side);
-        let places = first(down).flat_map(|y| first(across).map(move |x| (x, y)));
-        let squares: Vec<_> = places.map(|(x, y)| Square { x, y, side }).collect();
-        let room = most / squares.len().max(1);
-        let part = |square| Self {
-            square,
-            tiles: [across, down],
-            room,
-            lists: Vec::new(),
-            members: Vec::new(),
-        };
-        squares.into_iter().map(part).collect()
-    }
-
-    /// Makes the lists.
-    pub(super) fn cut<M: Measure>(
-        &mut self,
-        torus: Torus,
-        points: &Buckets,
-        cx: &Context<'_>,
-    ) -> Result<(), Error> {
-        let mut sizes = Vec::new();
-        sizes.resize_with(self.square.side.ilog2() as usize + 1, Candidates::default);
-        let measure = PhantomData::<M>;
-        let square = self.square;
-        let mut cutting = Cutting { part: self, torus, cx, scratch: Scratch::default(), measure };
-        let mut near = Candidates::default();
-        let step = |first: usize| (first..first + square.side).step_by(points.side);
-        for (x, y) in step(square.y).flat_map(|y| step(square.x).map(move |x| (x, y))) {
-            let square = Square { x, y, side: points.side.min(square.side) };
-            cutting.start(square, points, &mut near, &mut sizes)?;
+        let mut all = Self { count: numbers.len(), ..Self::default() };
+        all.make_room(numbers.len());
+        for (i, number) in numbers.iter().enumerate() {
+            let point = points[*number as usize];
+            (all.numbers[i], all.x[i], all.y[i]) = (*number, point.x, point.y);
         }
-        Ok(())
+        all
+    }
+
+    /// Those at these places.
+    pub(super) fn ordered(&self, places: &[usize]) -> Self {
+        let mut all = Self { count: places.len(), ..Self::default() };
+        all.make_room(places.len());
+        for (i, place) in places.iter().enumerate() {
+            all.numbers[i] = self.numbers[*place];
+            (all.x[i], all.y[i]) = (self.x[*place], self.y[*place]);
+        }
+        all
+    }
+
+    /// Makes room for so many, and for a register more.
+    #[inline(always)]
+    fn make_room(&mut self, count: usize) {
+        if self.x.len() < count + SIDE {
+            self.numbers.resize(count + SIDE, 0);
+            self.x.resize(count + SIDE, 0.0);
+            self.y.resize(count + SIDE, 0.0);
+        }
+    }
+
+    /// Appends those at some places of `other`, moved by a distance.
+    #[inline(always)]
+    pub(super) fn append(&mut self, other: &Self, places: Range<usize>, by: [f32; 2]) {
+        self.make_room(self.count + places.len());
+        let mut to = self.count;
+        self.count += places.len();
+        for from in places.step_by(SIDE) {
+            // A register at a time: mostly one is enough.
+            let (to_x, from_x) = (&mut self.x[to..to + SIDE], &other.x[from..from + SIDE]);
+            let (to_y, from_y) = (&mut self.y[to..to + SIDE], &other.y[from..from + SIDE]);
+            for i in 0..SIDE {
+                to_x[i] = from_x[i] + by[0];
+            }
+            for i in 0..SIDE {
+                to_y[i] = from_y[i] + by[1];
+            }
+            self.numbers[to..to + SIDE].copy_from_slice(&other.numbers[from..from + SIDE]);
+            to += SIDE;
+        }
+    }
+
+    /// Becomes those of `other` that have at most `reach` in `least`.
+    #[inline(always)]
+    fn pick(&mut self, other: &Self, least: &[f32], reach: f32) {
+        let count = other.count;
+        self.make_room(count);
+        let from = (&other.numbers[..count], &other.x[..count], &other.y[..count]);
+        let to = (&mut self.numbers[..count], &mut self.x[..count], &mut self.y[..count]);
+        let least = &least[..count];
+        let mut found = 0;
+        for i in 0..count {
+            // Written in any case, which is faster than to guess which ones are near.
+            (to.0[found], to.1[found], to.2[found]) = (from.0[i], from.1[i], from.2[i]);
+            found += usize::from(least[i] <= reach);
+        }
+        self.count = found;
+        self.is_straight = other.is_straight;
+    }
+
+    /// Moves the points to the places where they are nearest to all pixels of an area, if there
+    /// are such places for all of them.
+    #[inline(always)]
+    fn straighten(&mut self, area: &Area) {
+        let places = [&mut self.x[..self.count], &mut self.y[..self.count]];
+        self.is_straight = places.iter().enumerate().all(|(axis, places)| {
+            // Without a way out, so that it is done for several at a time.
+            places.iter().fold(true, |are, at| are & area.nearest(axis, *at).1)
+        });
+        if self.is_straight {
+            for (axis, places) in places.into_iter().enumerate() {
+                places.iter_mut().for_each(|at| *at = area.nearest(axis, *at).0);
+            }
+        }
+    }
+
+    /// Sorts them by their numbers. They are few.
+    fn sort(&mut self) {
+        for end in 1..self.count {
+            let mut i = end;
+            while i > 0 && self.numbers[i - 1] > self.numbers[i] {
+                self.numbers.swap(i - 1, i);
+                self.x.swap(i - 1, i);
+                self.y.swap(i - 1, i);
+                i -= 1;
+            }
+        }
     }
 }
 
-/// Memory of [`Nearby`].
-#[derive(Debug, Default)]
-struct Scratch {
-    /// Comparison numbers of the least distances.
-    least: Vec<f32>,
-    /// All places of candidates.
-    places: Vec<u32>,
-    /// Places of candidates, or their numbers.
-    picked: Vec<u32>,
+/// Makes the lists of a part, of the points of `buckets`.
+pub(super) fn cut<M: Measure>(
+    part: &mut Part,
+    torus: Torus,
+    points: &[Point],
+    buckets: &Buckets,
+    cx: &Context<'_>,
+) -> Result<(), Error> {
+    let mut sizes = Vec::new();
+    sizes.resize_with(part.square.side.ilog2() as usize + 1, Candidates::default);
+    let (square, measure) = (part.square, PhantomData::<M>);
+    part.start();
+    let mut cutting = Cutting { part, torus, points, cx, least: Vec::new(), measure };
+    let mut near = Candidates::default();
+    let step = |first: usize| (first..first + square.side).step_by(buckets.side);
+    for (x, y) in step(square.y).flat_map(|y| step(square.x).map(move |x| (x, y))) {
+        let square = Square { x, y, side: buckets.side.min(square.side) };
+        cutting.start(square, buckets, &mut near, &mut sizes)?;
+    }
+    Ok(())
 }
 
 /// A part that is being cut.
 struct Cutting<'a, M> {
     part: &'a mut Part,
     torus: Torus,
+    points: &'a [Point],
     cx: &'a Context<'a>,
-    scratch: Scratch,
+    /// Comparison numbers of the least distances of candidates.
+    least: Vec<f32>,
     measure: PhantomData<M>,
 }
 
@@ -189,7 +235,7 @@ impl<M: Measure> Cutting<'_, M> {
         if self.is_outside(square) {
             return Ok(());
         }
-        let mut rings = 1;
+        let mut rings = FIRST_RINGS;
         loop {
             self.cx.check()?;
             let known = points.around([square.x, square.y], rings, self.torus, near);
@@ -197,7 +243,7 @@ impl<M: Measure> Cutting<'_, M> {
             if reach <= M::compare(known, 0.0) {
                 return self.settle(square, sizes);
             }
-            rings *= 2;
+            rings += rings.div_ceil(2);
         }
     }
 
@@ -224,29 +270,24 @@ impl<M: Measure> Cutting<'_, M> {
         self.cx.simd.run(Nearby {
             from,
             to: &mut sizes[0],
-            scratch: &mut self.scratch,
+            least: &mut self.least,
             area: square.area(self.torus.size),
             needed: self.torus.needed,
-            is_last: square.side == 1,
             measure: self.measure,
         })
     }
 
     /// Keeps a square as it is, or cuts it further.
     fn settle(&mut self, square: Square, sizes: &mut [Candidates]) -> Result<(), Error> {
-        let part = &mut *self.part;
         let Some((own, smaller)) = sizes.split_first_mut() else { return Ok(()) };
-        let count = own.numbers.len();
-        // What is left must do for the lists of squares that are not cut yet, too.
-        let is_tight = count * 8 > part.room.saturating_sub(part.members.len());
-        if square.side == 1 || count <= FEW || is_tight {
-            let start = part.members.len();
-            part.members.extend_from_slice(&own.numbers);
+        let count = own.count;
+        if square.side == 1 || count <= FEW || self.part.is_tight(count) {
             if self.torus.needed == 1 {
                 // Of equally near points, the first one gives the shade.
-                part.members[start..].sort_unstable();
+                own.sort();
             }
-            part.lists.push((square, part.members.len()));
+            let points = if self.torus.needed == 1 { self.points } else { &[] };
+            self.part.keep(square, own, points);
             return Ok(());
         }
         square.quarters().into_iter().try_for_each(|quarter| self.cut(quarter, own, smaller))
@@ -257,11 +298,10 @@ impl<M: Measure> Cutting<'_, M> {
 struct Nearby<'a, M> {
     from: &'a Candidates,
     to: &'a mut Candidates,
-    scratch: &'a mut Scratch,
+    /// Memory.
+    least: &'a mut Vec<f32>,
     area: Area,
     needed: usize,
-    /// Whether only the numbers are wanted.
-    is_last: bool,
     measure: PhantomData<M>,
 }
 
@@ -271,117 +311,86 @@ impl<M: Measure> Kernel for Nearby<'_, M> {
 
     #[inline(always)]
     fn run(self) -> f32 {
-        let count = self.from.numbers.len();
-        let Scratch { least, places, picked } = &mut *self.scratch;
-        if least.len() < count {
-            least.resize(count, 0.0);
-            places.extend((0..).skip(places.len()).take(count - places.len()));
-            picked.resize(count, 0);
+        let count = self.from.count;
+        if self.least.len() < count + SIDE {
+            self.least.resize(count + SIDE, 0.0);
         }
-        let (least, picked) = (&mut least[..count], &mut picked[..count]);
-        let (x, x_rest) = self.from.x.as_chunks::<SIDE>();
-        let (y, y_rest) = self.from.y.as_chunks::<SIDE>();
-        let (chunks, least_rest) = least.as_chunks_mut::<SIDE>();
-        let mut most = LeastTwo::default();
-        for (least, (x, y)) in chunks.iter_mut().zip(x.iter().zip(y)) {
-            let farthest;
-            (*least, farthest) = self.area.distances::<M>(x, y);
-            most.add(&farthest);
-        }
-        if !x_rest.is_empty() {
-            let (mut x, mut y) = ([0.0; SIDE], [0.0; SIDE]);
-            x[..x_rest.len()].copy_from_slice(x_rest);
-            y[..y_rest.len()].copy_from_slice(y_rest);
-            let (nearest, mut farthest) = self.area.distances::<M>(&x, &y);
-            farthest[x_rest.len()..].fill(f32::INFINITY);
-            most.add(&farthest);
-            least_rest.copy_from_slice(&nearest[..least_rest.len()]);
-        }
-        let [first, second] = most.all();
+        let size = self.area.size;
+        let [first, second] = if self.from.is_straight {
+            self.area.distances::<M>(self.from, self.least, |distance, _| distance)
+        } else {
+            let way = |distance, axis: usize| around(distance, size[axis]);
+            self.area.distances::<M>(self.from, self.least, way)
+        };
         let reach = if self.needed == 1 { first } else { second };
         // A little farther, because comparison numbers are rounded to 24 bits.
         let reach = reach + reach.abs() * 1e-5 + 1e-3;
-        let names = if self.is_last { &self.from.numbers } else { &*places };
-        let mut found = 0;
-        for (name, least) in names.iter().zip(&*least) {
-            // Written in any case, which is faster than to guess which ones are near.
-            picked[found] = *name;
-            found += usize::from(*least <= reach);
-        }
-        let picked = &picked[..found];
-        self.to.clear();
-        if self.is_last {
-            self.to.numbers.extend_from_slice(picked);
-        } else {
-            let places = || picked.iter().map(|place| *place as usize);
-            self.to.numbers.extend(places().map(|place| self.from.numbers[place]));
-            self.to.x.extend(places().map(|place| self.from.x[place]));
-            self.to.y.extend(places().map(|place| self.from.y[place]));
+        self.to.pick(self.from, self.least, reach);
+        if !self.to.is_straight {
+            self.to.straighten(&self.area);
         }
         reach
     }
 }
 
 impl Area {
-    /// Comparison numbers of a distance that points at least keep to all pixels of the square, and
-    /// of one that they at most have. On a torus too, going h pixels changes the distance along
-    /// that direction by h at most.
+    /// The place where a point is nearest to all pixels of the square along one direction, and
+    /// whether there is such a place.
+    #[inline(always)]
+    fn nearest(&self, axis: usize, at: f32) -> (f32, bool) {
+        let (middle, half, size) = (self.middle[axis], self.half[axis], self.size[axis]);
+        let distance = (middle - at).abs();
+        let is_here = distance + half <= size * 0.5;
+        let is_around = distance - half >= size * 0.5 && distance + half <= size;
+        let moved = if at < middle { at + size } else { at - size };
+        (if is_here { at } else { moved }, is_here | is_around)
+    }
+
+    /// Writes comparison numbers of a distance that points at least keep to all pixels of the
+    /// square. Returns the least two of those that they at most have. On a torus too, going h
+    /// pixels changes the distance along that direction by h at most.
     #[inline(always)]
     fn distances<M: Measure>(
         &self,
+        points: &Candidates,
+        least: &mut [f32],
+        way: impl Fn(f32, usize) -> f32,
+    ) -> [f32; 2] {
+        let (x, y) = (points.x.as_chunks::<SIDE>().0, points.y.as_chunks::<SIDE>().0);
+        let chunks = least.as_chunks_mut::<SIDE>().0.iter_mut().zip(x).zip(y);
+        let (mut first, mut second) = ([f32::INFINITY; SIDE], [f32::INFINITY; SIDE]);
+        for (number, ((least, x), y)) in chunks.take(points.count.div_ceil(SIDE)).enumerate() {
+            let mut most;
+            (*least, most) = self.eight_distances::<M>(x, y, &way);
+            let left = points.count - number * SIDE;
+            if left < SIDE {
+                for lane in 0..SIDE {
+                    most[lane] = if lane < left { most[lane] } else { f32::INFINITY };
+                }
+            }
+            add(&mut first, &mut second, &most);
+        }
+        least_two(first, second)
+    }
+
+    /// The comparison numbers of the least and of the greatest distance of points.
+    #[inline(always)]
+    fn eight_distances<M: Measure>(
+        &self,
         x: &[f32; SIDE],
         y: &[f32; SIDE],
+        way: &impl Fn(f32, usize) -> f32,
     ) -> ([f32; SIDE], [f32; SIDE]) {
         let (mut least, mut most) = ([0.0; SIDE], [0.0; SIDE]);
         let [half_width, half_height] = self.half;
         for lane in 0..SIDE {
-            let across = around((self.middle[0] - x[lane]).abs(), self.size[0]);
-            let down = around((self.middle[1] - y[lane]).abs(), self.size[1]);
+            let across = way((self.middle[0] - x[lane]).abs(), 0);
+            let down = way((self.middle[1] - y[lane]).abs(), 1);
             let [least_across, most_across] = M::range(across, half_width);
             let [least_down, most_down] = M::range(down, half_height);
             least[lane] = M::compare(least_across, least_down);
             most[lane] = M::compare(most_across, most_down);
         }
         (least, most)
-    }
-}
-
-/// The least two numbers in each lane; infinity where there are fewer.
-struct LeastTwo {
-    first: [f32; SIDE],
-    second: [f32; SIDE],
-}
-
-impl Default for LeastTwo {
-    fn default() -> Self {
-        Self { first: [f32::INFINITY; SIDE], second: [f32::INFINITY; SIDE] }
-    }
-}
-
-impl LeastTwo {
-    #[inline(always)]
-    fn add(&mut self, numbers: &[f32; SIDE]) {
-        for (lane, number) in numbers.iter().enumerate() {
-            let greater_one = greater(self.first[lane], *number);
-            self.second[lane] = lesser(self.second[lane], greater_one);
-            self.first[lane] = lesser(self.first[lane], *number);
-        }
-    }
-
-    /// The least two of all lanes.
-    #[inline(always)]
-    fn all(mut self) -> [f32; 2] {
-        let mut lanes = SIDE;
-        while lanes > 1 {
-            lanes /= 2;
-            for lane in 0..lanes {
-                let other = lane + lanes;
-                let greater_one = greater(self.first[lane], self.first[other]);
-                let lesser_second = lesser(self.second[lane], self.second[other]);
-                self.second[lane] = lesser(lesser_second, greater_one);
-                self.first[lane] = lesser(self.first[lane], self.first[other]);
-            }
-        }
-        [self.first[0], self.second[0]]
     }
 }

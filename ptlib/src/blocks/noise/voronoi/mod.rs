@@ -6,14 +6,16 @@
 
 mod buckets;
 mod cutting;
+mod lists;
 pub(super) mod placement;
 pub(super) mod shown;
 
-use std::ops::Range;
+use std::{mem, slice};
 
 use self::{
     buckets::Buckets,
-    cutting::{Candidates, Part, Square, Torus},
+    cutting::{Candidates, Torus},
+    lists::{GROUP, Group, List, Part, Span},
 };
 use crate::block::prelude::*;
 
@@ -103,88 +105,57 @@ impl Measure for Chebyshev {
     }
 }
 
-/// Points, and for each tile of the image those that matter there.
+/// For each tile of the image, the points that matter there.
 #[derive(Debug)]
 pub(super) struct Cells {
-    points: Vec<Point>,
-    width: f32,
-    height: f32,
-    /// Tiles across the image.
+    /// Row by row.
+    parts: Vec<Part>,
+    /// Parts across the image.
     across: usize,
-    /// For each tile, its list.
-    tiles: Vec<u32>,
-    /// For each list, where it starts in `members`; then the end of the last one.
-    starts: Vec<u32>,
-    /// Numbers of points. Where only the nearest is needed they rise in each list, so that the
-    /// first of several equally near points is found first.
-    members: Vec<u32>,
+    /// Tiles along the side of a part.
+    side: usize,
+    /// Size of the image.
+    size: [f32; 2],
 }
 
 impl Cells {
-    /// The most members of all lists together. Only strange placements come near it, such as a
+    /// The most groups of all lists together. Only strange placements come near it, such as a
     /// circle around the tile: then tiles share the list of the tile that they came from.
-    fn most_members(points: u64, tiles: u64) -> u64 {
-        (32 * tiles + 4 * points).min(u64::from(u32::MAX / 2))
-    }
-
-    fn tiles_of(width: u32, height: u32) -> u64 {
-        u64::from(width).div_ceil(SIDE as u64) * u64::from(height).div_ceil(SIDE as u64)
+    fn most_groups(points: u64, tiles: u64) -> u64 {
+        let members = 32 * tiles + 4 * points;
+        (members / GROUP as u64).min(u64::from(u32::MAX / 2))
     }
 
     /// The most memory of the cells of `points` points, in bytes.
     pub(super) fn bytes_of(points: u64, width: u32, height: u32) -> u64 {
-        let tiles = Self::tiles_of(width, height);
-        // While they are built, the lists of parts exist besides the finished ones, and on each
-        // thread those of one square of each size.
-        let members = 2 * Self::most_members(points, tiles) + cutting::PARTS * 8 * points;
-        points * size_of::<Point>() as u64 + (members + 8 * tiles) * size_of::<u32>() as u64
+        let tiles = [width, height].map(|size| u64::from(size).div_ceil(SIDE as u64));
+        let tiles = tiles[0] * tiles[1];
+        // While they are built, there are on each thread the lists of one square of each size.
+        let lists = Self::most_groups(points, tiles)
+            * (size_of::<Group>() + 2 * size_of::<[f32; GROUP]>()) as u64;
+        let building = lists::PARTS * 8 * points * size_of::<u32>() as u64;
+        points * size_of::<Point>() as u64 + lists + building + 12 * tiles
     }
 
     /// The cells of at least one point, prepared to find the `needed` (1 or 2) nearest ones.
     pub(super) fn new<M: Measure>(
-        points: Vec<Point>,
+        points: &[Point],
         needed: usize,
         cx: &Context<'_>,
     ) -> Result<Self, Error> {
-        let across = (cx.width as usize).div_ceil(SIDE);
-        let down = (cx.height as usize).div_ceil(SIDE);
-        let distinct = distinct(&points, needed);
-        let candidates = Candidates::of(&points, &distinct);
-        let most = Self::most_members(points.len() as u64, (across * down) as u64);
+        let tiles = [cx.width, cx.height].map(|size| (size as usize).div_ceil(SIDE));
+        let distinct = distinct(points, needed);
+        let candidates = Candidates::of(points, &distinct);
         let torus = Torus { size: [convert::pixels(cx.width), convert::pixels(cx.height)], needed };
-        let buckets = Buckets::new(&candidates, [across, down], torus);
-        let mut parts = Part::all(across, down, convert::index(most.cast_signed()));
+        let buckets = Buckets::new(&candidates, tiles, torus);
+        let most = Self::most_groups(points.len() as u64, (tiles[0] * tiles[1]) as u64);
+        let mut parts = Part::all(tiles, most);
         cx.parallel_pieces(&mut parts, 1, |_, part| {
-            part.iter_mut().try_for_each(|part| part.cut::<M>(torus, &buckets, cx))
+            part.iter_mut()
+                .try_for_each(|part| cutting::cut::<M>(part, torus, points, &buckets, cx))
         })?;
-        let mut cells = Self {
-            points,
-            width: convert::pixels(cx.width),
-            height: convert::pixels(cx.height),
-            across,
-            tiles: vec![0; across * down],
-            starts: vec![0],
-            members: Vec::with_capacity(parts.iter().map(|part| part.members.len()).sum()),
-        };
-        for part in parts {
-            let mut start = 0;
-            for (square, end) in part.lists {
-                cells.keep(square, &part.members[start..end]);
-                start = end;
-            }
-        }
-        Ok(cells)
-    }
-
-    /// Makes `members` the list of the tiles of `square`.
-    fn keep(&mut self, square: Square, members: &[u32]) {
-        self.members.extend_from_slice(members);
-        let list = u32::try_from(self.starts.len() - 1).unwrap_or(u32::MAX);
-        self.starts.push(u32::try_from(self.members.len()).unwrap_or(u32::MAX));
-        let right = (square.x + square.side).min(self.across);
-        for row in self.tiles.chunks_exact_mut(self.across).skip(square.y).take(square.side) {
-            row[square.x..right].fill(list);
-        }
+        let side = Part::side(tiles);
+        Ok(Self { parts, across: tiles[0].div_ceil(side), side, size: torus.size })
     }
 
     /// Writes `shown` of the comparison number and the shade of each pixel's nearest point.
@@ -195,31 +166,13 @@ impl Cells {
         out: &mut [f32],
         shown: impl Fn(f32, f32) -> f32,
     ) {
-        let y = convert::pixels(cx.y);
-        for tile in self.tiles(cx, out.len()) {
-            let (mut nearest, mut shade) = ([f32::INFINITY; SIDE], [0_u32; SIDE]);
-            for i in tile.members {
-                let point = &self.points[*i as usize];
-                let down = around((y - point.y).abs(), self.height);
-                let mut compared = [0.0; SIDE];
-                for lane in 0..SIDE {
-                    let across = around((tile.column + LANES[lane] - point.x).abs(), self.width);
-                    compared[lane] = M::compare(across, down);
-                }
-                for lane in 0..SIDE {
-                    // By bits: a choice between numbers would become a branch for each.
-                    let is_nearer = 0_u32.wrapping_sub(u32::from(compared[lane] < nearest[lane]));
-                    shade[lane] = shade[lane] & !is_nearer | point.shade.to_bits() & is_nearer;
-                }
-                for lane in 0..SIDE {
-                    nearest[lane] = lesser(compared[lane], nearest[lane]);
-                }
-            }
+        for tile in self.tiles(cx, out) {
+            let nearest = tile.list.nearest::<M>(tile.at, self.size);
             let mut values = [0.0; SIDE];
             for lane in 0..SIDE {
-                values[lane] = shown(nearest[lane], f32::from_bits(shade[lane]));
+                values[lane] = shown(nearest.compared[lane], nearest.shade(lane));
             }
-            out[tile.pixels].copy_from_slice(&values[tile.wanted]);
+            tile.write(&values);
         }
     }
 
@@ -232,60 +185,91 @@ impl Cells {
         out: &mut [f32],
         shown: impl Fn(f32, f32) -> f32,
     ) {
-        let y = convert::pixels(cx.y);
-        for tile in self.tiles(cx, out.len()) {
-            let (mut nearest, mut second) = ([f32::INFINITY; SIDE], [f32::INFINITY; SIDE]);
-            for i in tile.members {
-                let point = &self.points[*i as usize];
-                let down = around((y - point.y).abs(), self.height);
-                for lane in 0..SIDE {
-                    let across = around((tile.column + LANES[lane] - point.x).abs(), self.width);
-                    let compared = M::compare(across, down);
-                    second[lane] = lesser(second[lane], greater(nearest[lane], compared));
-                    nearest[lane] = lesser(nearest[lane], compared);
-                }
-            }
+        for tile in self.tiles(cx, out) {
+            let (first, second) = tile.list.nearest_two::<M>(tile.at, self.size);
             let mut values = [0.0; SIDE];
             for lane in 0..SIDE {
-                values[lane] = shown(nearest[lane], second[lane]);
+                values[lane] = shown(first[lane], second[lane]);
             }
-            out[tile.pixels].copy_from_slice(&values[tile.wanted]);
+            tile.write(&values);
         }
     }
 
-    /// The tiles that `len` pixels of a row lie in, from left to right.
+    /// The tiles that `out` lies in, from left to right.
     #[inline(always)]
-    fn tiles(&self, cx: &RowContext<'_>, len: usize) -> impl Iterator<Item = Tile<'_>> {
-        let (left, right) = (cx.x as usize, cx.x as usize + len);
-        let row = &self.tiles[cx.y as usize / SIDE * self.across..][..self.across];
-        (left / SIDE..right.div_ceil(SIDE)).map(move |number| {
-            let list = row[number] as usize;
-            let members = self.starts[list] as usize..self.starts[list + 1] as usize;
-            let start = number * SIDE;
-            let (from, to) = (start.max(left), (start + SIDE).min(right));
-            Tile {
-                members: &self.members[members],
-                column: convert::position(start),
-                wanted: from - start..to - start,
-                pixels: from - left..to - left,
+    fn tiles<'a>(&'a self, cx: &RowContext<'_>, out: &'a mut [f32]) -> Tiles<'a> {
+        let (x, y) = (cx.x as usize, cx.y as usize / SIDE);
+        let parts = &self.parts[y / self.side * self.across..][..self.across];
+        let (part, later) = parts[x / SIDE / self.side..].split_first().unwrap_or((&parts[0], &[]));
+        let spans = part.row(y)[x / SIDE % self.side..].iter();
+        Tiles { part, spans, later: later.iter(), x, y: cx.y, out }
+    }
+}
+
+/// Gives the tiles that a part of a row lies in.
+struct Tiles<'a> {
+    part: &'a Part,
+    /// The tiles of `part` that come next.
+    spans: slice::Iter<'a, Span>,
+    /// The parts that follow.
+    later: slice::Iter<'a, Part>,
+    x: usize,
+    y: u32,
+    out: &'a mut [f32],
+}
+
+impl<'a> Iterator for Tiles<'a> {
+    type Item = Tile<'a>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Tile<'a>> {
+        if self.out.is_empty() {
+            return None;
+        }
+        let span = match self.spans.next() {
+            Some(span) => span,
+            None => {
+                self.part = self.later.next()?;
+                self.spans = self.part.row(self.y as usize / SIDE).iter();
+                self.spans.next()?
             }
-        })
+        };
+        let skipped = self.x % SIDE;
+        let start = self.x - skipped;
+        let out = mem::take(&mut self.out);
+        let (out, after) = out.split_at_mut((SIDE - skipped).min(out.len()));
+        (self.x, self.out) = (start + SIDE, after);
+        let at = [convert::position(start), convert::pixels(self.y)];
+        Some(Tile { list: self.part.list(*span), at, skipped, out })
     }
 }
 
 /// The part of a tile that lies in a row.
 struct Tile<'a> {
-    /// The numbers of the points that matter there.
-    members: &'a [u32],
-    /// Its first column.
-    column: f32,
-    /// The columns of the tile that are asked for.
-    wanted: Range<usize>,
-    /// Their places in what is asked for.
-    pixels: Range<usize>,
+    /// The points that matter there.
+    list: List<'a>,
+    /// Where the row of the tile starts.
+    at: [f32; 2],
+    /// So many of its pixels are not asked for.
+    skipped: usize,
+    /// Those that are.
+    out: &'a mut [f32],
 }
 
-const LANES: [f32; SIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+impl Tile<'_> {
+    /// Writes what is asked for of the values of a row of the tile.
+    #[inline(always)]
+    fn write(self, values: &[f32; SIDE]) {
+        // All but the first and the last tile are whole.
+        match <&mut [f32; SIDE]>::try_from(&mut *self.out) {
+            Ok(out) => *out = *values,
+            Err(_) => {
+                let values = values.iter().skip(self.skipped);
+                self.out.iter_mut().zip(values).for_each(|(out, value)| *out = *value);
+            }
+        }
+    }
+}
 
 /// The numbers of points, without those that lie where `needed` earlier ones do: they change
 /// nothing, and no cutting would ever separate them.
