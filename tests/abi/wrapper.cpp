@@ -217,6 +217,22 @@ int main()
     CHECK(again.save() == graph.save() && again.warnings().empty() && again.main_result() == 0);
     const auto broken = thrown<ptlib::error>([&] { engine.load("<texturegraph width=\"x\"/>"); });
     CHECK(!broken.faults().empty() && broken.faults()[0].line == 1);
+    int files = 0;
+    ptlib::engine scanning = engine.retain();
+    scanning.scan_plugins([&](const ptl_scan_report &) { return ++files > 0; },
+                          std::getenv("PTLIB_TEST_PLUGINS"));
+    CHECK(files == 2 && engine.find_block_type("ptlib-test.invert"));
+    const auto stop = [&] {
+        const auto refuse = [&](const ptl_scan_report &) {
+            if (files > 0) {
+                throw std::runtime_error("no more files");
+            }
+            return true;
+        };
+        scanning.scan_plugins(refuse, std::getenv("PTLIB_TEST_PLUGINS"));
+    };
+    CHECK(thrown<std::runtime_error>(stop).what() == std::string("no more files"));
+    thrown<ptlib::error>([&] { scanning.load_plugin("nowhere.ptplugin.so"); });
     const ptlib::engine same = engine.retain();
     engine.set_log(PTL_LOG_WARNING, nullptr);
     CHECK(ptlib::version() == ptl_version_string());

@@ -14,7 +14,7 @@ use std::{
 };
 
 /// Programs that end with 0 if everything is as it should be.
-const PROGRAMS: [&str; 8] = [
+const PROGRAMS: [&str; 9] = [
     "sizes.c",
     "misuse.c",
     "lifecycle.c",
@@ -23,6 +23,7 @@ const PROGRAMS: [&str; 8] = [
     "threads.c",
     "panic.c",
     "wrapper.cpp",
+    "plugins.c",
 ];
 
 /// What a program may not do, not even under its breath.
@@ -128,7 +129,22 @@ fn build_and_run(program: &str, how: &str, arguments: &[&str], under: &[&str]) {
     let mut words = under.iter().copied().chain([executable]);
     let mut command = Command::new(words.next().unwrap());
     command.args(words).current_dir(folder).env("LD_LIBRARY_PATH", library());
+    command.env("PTLIB_TEST_PLUGINS", plugin_folder());
     run(&mut command);
+}
+
+/// A folder with a plug-in, and a file that only has the name of one.
+fn plugin_folder() -> &'static Path {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    FOLDER.get_or_init(|| {
+        let folder = scratch().join("plugin-folder");
+        fs::create_dir_all(&folder).unwrap();
+        if let Some(plugin) = crate::plugins::build("points") {
+            fs::copy(plugin, folder.join("points.ptplugin.so")).unwrap();
+        }
+        fs::write(folder.join("garbage.ptplugin.so"), b"no library").unwrap();
+        folder
+    })
 }
 
 fn shared_library() -> [String; 2] {
