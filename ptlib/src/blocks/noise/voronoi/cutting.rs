@@ -20,6 +20,10 @@ use crate::block::prelude::*;
 /// A square with at most this many points is not cut further.
 const FEW: usize = GROUP;
 
+/// Nor is one of four tiles with at most this many: making four lists takes longer than looking at
+/// some points more in each tile.
+const FEW_OF_FOUR_TILES: usize = 6 * GROUP;
+
 /// Candidates of a square come from so many rings of buckets around its own at first.
 const FIRST_RINGS: usize = 2;
 
@@ -148,12 +152,11 @@ impl Candidates {
         self.make_room(count);
         let from = (&other.numbers[..count], &other.x[..count], &other.y[..count]);
         let to = (&mut self.numbers[..count], &mut self.x[..count], &mut self.y[..count]);
-        let least = &least[..count];
         let mut found = 0;
-        for i in 0..count {
+        for (i, least) in least[..count].iter().enumerate() {
             // Written in any case, which is faster than to guess which ones are near.
             (to.0[found], to.1[found], to.2[found]) = (from.0[i], from.1[i], from.2[i]);
-            found += usize::from(least[i] <= reach);
+            found += usize::from(*least <= reach);
         }
         self.count = found;
         self.is_straight = other.is_straight;
@@ -281,7 +284,8 @@ impl<M: Measure> Cutting<'_, M> {
     fn settle(&mut self, square: Square, sizes: &mut [Candidates]) -> Result<(), Error> {
         let Some((own, smaller)) = sizes.split_first_mut() else { return Ok(()) };
         let count = own.count;
-        if square.side == 1 || count <= FEW || self.part.is_tight(count) {
+        let few = if square.side == 2 { FEW_OF_FOUR_TILES } else { FEW };
+        if square.side == 1 || count <= few || self.part.is_tight(count) {
             if self.torus.needed == 1 {
                 // Of equally near points, the first one gives the shade.
                 own.sort();
