@@ -368,9 +368,7 @@ impl Area {
             (*least, most) = self.eight_distances::<M>(x, y, &way);
             let left = points.count - number * SIDE;
             if left < SIDE {
-                for lane in 0..SIDE {
-                    most[lane] = if lane < left { most[lane] } else { f32::INFINITY };
-                }
+                most[left..].fill(f32::INFINITY);
             }
             add(&mut first, &mut second, &most);
         }

@@ -109,9 +109,8 @@ impl Part {
         let groups = x.iter().zip(y).zip((0..own.count).step_by(GROUP));
         self.groups.extend(groups.map(|((x, y), first)| {
             let mut group = Group { x: *x, y: *y };
-            for i in 0..GROUP {
-                group.x[i] = if first + i < own.count { x[i] } else { f32::INFINITY };
-            }
+            let left = GROUP.min(own.count - first);
+            group.x[left..].fill(f32::INFINITY);
             group
         }));
         if !points.is_empty() {
@@ -236,13 +235,14 @@ pub(super) struct Nearest {
 impl Nearest {
     #[inline(always)]
     fn add(&mut self, shade: f32, compared: &[f32; SIDE]) {
-        for lane in 0..SIDE {
+        let lanes = compared.iter().zip(&self.compared).zip(&mut self.shade);
+        for ((compared, least), own) in lanes {
             // By bits: a choice between numbers would become a branch for each.
-            let is_nearer = 0_u32.wrapping_sub(u32::from(compared[lane] < self.compared[lane]));
-            self.shade[lane] = self.shade[lane] & !is_nearer | shade.to_bits() & is_nearer;
+            let is_nearer = 0_u32.wrapping_sub(u32::from(compared < least));
+            *own = *own & !is_nearer | shade.to_bits() & is_nearer;
         }
-        for lane in 0..SIDE {
-            self.compared[lane] = lesser(compared[lane], self.compared[lane]);
+        for (least, compared) in self.compared.iter_mut().zip(compared) {
+            *least = lesser(*compared, *least);
         }
     }
 

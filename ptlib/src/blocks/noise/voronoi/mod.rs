@@ -168,11 +168,8 @@ impl Cells {
     ) {
         for tile in self.tiles(cx, out) {
             let nearest = tile.list.nearest::<M>(tile.at, self.size);
-            let mut values = [0.0; SIDE];
-            for lane in 0..SIDE {
-                values[lane] = shown(nearest.compared[lane], nearest.shade(lane));
-            }
-            tile.write(&values);
+            let value = |lane: usize| shown(nearest.compared[lane], nearest.shade(lane));
+            tile.write(&std::array::from_fn(value));
         }
     }
 
