@@ -29,18 +29,22 @@ pub(crate) fn build(name: &str) -> Option<PathBuf> {
     build_with(name, name, &[])
 }
 
-/// The same under another name, with further flags.
+/// The same under another name, with further flags; `source` may be a path in the repository.
 pub(crate) fn build_with(source: &str, name: &str, flags: &[&str]) -> Option<PathBuf> {
     let _one = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
     let plugin = folder().join(format!("{name}.ptplugin.so"));
     let compiler = tool("cc")?;
     // A library that is loaded must not change under the feet of other tests.
     if BUILT.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned()) {
+        let source = match source.ends_with(".c") {
+            true => source.to_owned(),
+            false => format!("tests/plugins/{source}.c"),
+        };
         let mut command = Command::new(compiler);
         command.args(["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic-errors", "-Werror"]);
         command.args(["-shared", "-fPIC", "-fvisibility=hidden"]).args(flags);
         command.arg("-I").arg(root().join("include"));
-        command.arg(root().join(format!("tests/plugins/{source}.c"))).arg("-o").arg(&plugin);
+        command.arg(root().join(source)).arg("-o").arg(&plugin);
         run(&mut command);
     }
     Some(plugin)
@@ -209,4 +213,18 @@ fn a_graph_file_names_the_plugin_of_a_block_and_is_kept_without_it() {
     let end = reading.graph.main_result().unwrap();
     with.compute(&reading.graph, end, 0, ComputeOptions::default()).unwrap();
     assert_eq!(reading.graph.to_xml(), xml);
+}
+
+/// What newcomers copy works. (The template in Rust has a test of its own.)
+#[test]
+fn the_template_in_c_makes_images_black_and_white() {
+    let source = "plugins/templates/c/threshold.c";
+    let Some(plugin) = build_with(source, "threshold", &[]) else { return };
+    let engine = engine(&plugin);
+    let grey = through(&engine, "grayscale");
+    let image = through(&engine, "my-vendor.threshold");
+    let expected: Vec<f32> =
+        grey.channel(0).iter().map(|value| if *value >= 0.5 { 1.0 } else { 0.0 }).collect();
+    assert_eq!(image.channel(0), expected);
+    assert!(expected.contains(&0.0) && expected.contains(&1.0));
 }
