@@ -4,7 +4,7 @@
 //! apply (the range of a text, say) is left out.
 
 use ptlib::{
-    block::{Access, BlockSpec, InputPort, OutputPort, Planes, Role, Shape, Shown, Tiling},
+    block::{Access, BlockSpec, InputPort, OutputPort, Planes, Role, Shape, Tiling},
     params::{ChoiceItem, DefaultValue, FileUse, ParamKind, ParamSpec, Range},
 };
 use serde::Serialize;
@@ -33,23 +33,9 @@ pub(crate) struct BlockDescription {
     /// Which lengths count pixels, so that the picture depends on the resolution.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub(crate) in_pixels: &'static str,
-    /// How the documentation shows it, where that is not the usual way.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) shown: Option<ShownDescription>,
     pub(crate) inputs: Vec<InputDescription>,
     pub(crate) outputs: Vec<OutputDescription>,
     pub(crate) parameters: Vec<ParameterDescription>,
-}
-
-/// How the documentation shows a block.
-#[derive(Debug, Serialize)]
-pub(crate) struct ShownDescription {
-    /// The type of the block that its image inputs read; empty for the usual pictures.
-    over: &'static str,
-    /// Parameters and values of one picture; empty for the usual ones.
-    lower: &'static [(&'static str, &'static str)],
-    /// Those of another.
-    higher: &'static [(&'static str, &'static str)],
 }
 
 /// An input. Files name it by its place, from 0.
@@ -143,11 +129,6 @@ impl BlockDescription {
             tiles: tiling_exception.is_none(),
             tiling_exception,
             in_pixels: about.in_pixels,
-            shown: (about.shown != Shown::AS_USUAL).then_some(ShownDescription {
-                over: about.shown.over,
-                lower: about.shown.lower,
-                higher: about.shown.higher,
-            }),
             inputs: about.inputs.iter().map(InputDescription::of).collect(),
             outputs: about.outputs.iter().map(|port| output(port, about.inputs)).collect(),
             parameters: spec.params.iter().map(ParameterDescription::of).collect(),

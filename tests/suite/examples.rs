@@ -33,17 +33,3 @@ fn example_graphs_are_small_faultless_and_have_a_picture() {
     }
     assert!(count >= 6, "only {count} examples are left");
 }
-
-#[test]
-fn blocks_are_shown_with_parameters_that_they_take() {
-    let registry = ptlib::block::Registry::builtin();
-    for spec in registry.blocks() {
-        let shown = &spec.about.shown;
-        assert!(shown.over.is_empty() || registry.find(shown.over).is_some(), "{}", shown.over);
-        for (id, value) in shown.lower.iter().chain(shown.higher) {
-            let mut graph = ptlib::Graph::new(std::sync::Arc::clone(&registry));
-            let block = graph.add(spec.about.id).unwrap();
-            graph.set_text(block, id, value).unwrap();
-        }
-    }
-}

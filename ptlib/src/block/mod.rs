@@ -35,7 +35,6 @@ pub(crate) use row::{MAX_INPUTS, MAX_OUTPUT_PLANES};
 pub use shapes::{GatherBlock, PointBlock, RowKernel, WholeBlock};
 pub(crate) use shapes::{Implementation, RowFactory, WholeFactory};
 pub use spec::{
-    About, Access, BlockSpec, InputPort, OutputPort, Planes, Role, Shape, Shown, Tiling, input,
-    output,
+    About, Access, BlockSpec, InputPort, OutputPort, Planes, Role, Shape, Tiling, input, output,
 };
 pub(crate) use store::Store;

@@ -4,8 +4,7 @@ pub use std::sync::Arc;
 
 pub use super::{
     About, BlockSpec, Context, GatherBlock, InputRows, Interpolation, OutputRow, Planes,
-    PointBlock, PrepareContext, Role, RowContext, Shown, Tiling, WholeBlock, WholeContext, input,
-    output,
+    PointBlock, PrepareContext, Role, RowContext, Tiling, WholeBlock, WholeContext, input, output,
 };
 pub use crate::{
     choice,

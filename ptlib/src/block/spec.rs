@@ -157,22 +157,6 @@ pub enum Role {
     Input,
 }
 
-/// How the documentation shows a block, where numbers moved from their defaults show too little.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shown {
-    /// The type of the block that its image inputs read; empty for the usual pictures.
-    pub over: &'static str,
-    /// Parameters and values of one picture; empty for the usual ones.
-    pub lower: &'static [(&'static str, &'static str)],
-    /// Those of another.
-    pub higher: &'static [(&'static str, &'static str)],
-}
-
-impl Shown {
-    /// Shown like every block.
-    pub const AS_USUAL: Self = Self { over: "", lower: &[], higher: &[] };
-}
-
 /// What a block type is, apart from its parameters.
 #[derive(Debug, Clone, Copy)]
 pub struct About {
@@ -201,8 +185,6 @@ pub struct About {
     /// Which of its lengths count pixels, so that the picture depends on the resolution; empty if
     /// none does.
     pub in_pixels: &'static str,
-    /// How the documentation shows it.
-    pub shown: Shown,
 }
 
 impl About {
@@ -219,7 +201,6 @@ impl About {
         is_deterministic: true,
         tiling: Tiling::Always,
         in_pixels: "",
-        shown: Shown::AS_USUAL,
     };
 }
 

@@ -10,7 +10,7 @@ use super::{
 use crate::{
     block::{
         About, Access, BlockSpec, Implementation, InputPort, MAX_OUTPUT_PLANES, OutputPort, Planes,
-        Role, Shown, Tiling,
+        Role, Tiling,
     },
     error::Error,
     math::convert::{round64, truncate64_to_i32},
@@ -57,7 +57,6 @@ pub(super) fn describe(block: &Block) -> Result<Described, Error> {
             reason => Tiling::Except(reason),
         },
         in_pixels: block.text(table.in_pixels, "in_pixels")?,
-        shown: Shown::AS_USUAL,
     };
     if about.summary.is_empty() {
         return Err(block.reader.fault("doc", "says nothing"));

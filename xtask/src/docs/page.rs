@@ -85,18 +85,9 @@ fn caption(block: &Block, setting: Setting) -> String {
             Some(choice) => choice.id.clone(),
             None => shown(value),
         };
-        format!("{} {}", parameter.id, code(&shortened(&value)))
+        format!("{} {}", parameter.id, code(&value))
     });
     words.collect::<Vec<_>>().join("<br>")
-}
-
-/// A text of which a caption shows the start.
-fn shortened(text: &str) -> String {
-    const SHOWN: usize = 60;
-    match text.char_indices().nth(SHOWN) {
-        Some((end, _)) => format!("{} …", &text[..end]),
-        None => text.to_owned(),
-    }
 }
 
 fn shown(value: &serde_json::Value) -> String {

@@ -137,9 +137,7 @@ impl Sketch {
     /// Something for the input of a block.
     fn source(&mut self, block: &Block, slot: usize) -> Result<Option<usize>> {
         let input = &block.inputs[slot];
-        let over = block.shown.as_ref().map(|shown| shown.over.as_str()).unwrap_or_default();
         Ok(Some(match (input.kind.as_str(), input.id.as_str()) {
-            ("image", _) if !over.is_empty() => self.add(over, &[], &[]),
             ("image", "normals") => self.normals(),
             ("image", _) if slot.is_multiple_of(2) => self.colour(),
             ("image", _) => self.grey(),

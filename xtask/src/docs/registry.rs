@@ -19,21 +19,9 @@ pub(super) struct Block {
     pub(super) tiles: bool,
     pub(super) tiling_exception: Option<String>,
     pub(super) in_pixels: Option<String>,
-    pub(super) shown: Option<Shown>,
     pub(super) inputs: Vec<Input>,
     pub(super) outputs: Vec<Output>,
     pub(super) parameters: Vec<Parameter>,
-}
-
-/// How a block is shown, where that is not the usual way.
-#[derive(Debug, Deserialize)]
-pub(super) struct Shown {
-    /// The type of the block that its image inputs read; empty for the usual pictures.
-    pub(super) over: String,
-    /// Parameters and values of one picture; empty for the usual ones.
-    pub(super) lower: Vec<(String, String)>,
-    /// Those of another.
-    pub(super) higher: Vec<(String, String)>,
 }
 
 /// What a block is for in a graph.

@@ -1,7 +1,6 @@
 //! The settings that a block is shown at, derived from its declaration.
 //!
-//! Nobody has to list them by hand, so that a new block has them too (a block whose numbers say too
-//! little declares its own: `About::shown`). There are three: the defaults, and
+//! Nobody lists them by hand, so that a new block has them too. There are three: the defaults, and
 //! one on either side of them. *Lower* moves every number from its default towards the lower end of
 //! its usual range and takes the next alternative of every choice; *higher* moves numbers towards
 //! the upper end, takes the alternative after that, and turns every switch. Both take the example
@@ -48,29 +47,9 @@ pub(super) fn settings(block: &Block) -> Vec<Setting> {
 
 /// The parameters that a setting changes, and their values.
 pub(super) fn changes(block: &Block, setting: Setting) -> Vec<(&Parameter, Value)> {
-    let declared = block.shown.as_ref().map(|shown| match setting {
-        Setting::Default => &[],
-        Setting::Lower => shown.lower.as_slice(),
-        Setting::Higher => shown.higher.as_slice(),
-    });
-    if let Some(declared) = declared.filter(|declared| !declared.is_empty()) {
-        return declared.iter().filter_map(|(id, text)| written(block, id, text)).collect();
-    }
     let values = block.parameters.iter();
     let values = values.map(|parameter| (parameter, value(parameter, block, setting)));
     values.filter(|(parameter, value)| *value != parameter.default).collect()
-}
-
-/// A value that the block's declaration gives.
-fn written<'a>(block: &'a Block, id: &str, text: &str) -> Option<(&'a Parameter, Value)> {
-    let parameter = block.parameters.iter().find(|parameter| parameter.id == id)?;
-    let value = match parameter.kind {
-        ParameterKind::Int | ParameterKind::Choice => Value::from(text.parse::<i64>().ok()?),
-        ParameterKind::Float => Value::from(text.parse::<f64>().ok()?),
-        ParameterKind::Bool => Value::from(text == "1"),
-        ParameterKind::Text | ParameterKind::Path => Value::from(text),
-    };
-    Some((parameter, value))
 }
 
 /// The value of a parameter at a setting.

@@ -45,22 +45,6 @@ pub static BLOCK: BlockSpec = BlockSpec::whole::<CellularAutomatonCyclic>(About 
     summary: "Cells whose states eat each other in a circle, which makes spirals.",
     inputs: &[input("image", Kind::Image)],
     outputs: &[output("image", Planes::Grey)],
-    shown: Shown {
-        over: "simple noise",
-        lower: &[
-            ("neighbourhood size", "1"),
-            ("states", "12"),
-            ("threshold", "1"),
-            ("iterations", "150"),
-        ],
-        higher: &[
-            ("neighbourhood", "0"),
-            ("neighbourhood size", "10"),
-            ("states", "10"),
-            ("threshold", "20"),
-            ("iterations", "60"),
-        ],
-    },
     in_pixels: "the neighbourhood, and how far a pattern grows in an iteration",
     ..About::DEFAULT
 });

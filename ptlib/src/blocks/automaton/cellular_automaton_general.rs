@@ -34,35 +34,9 @@ pub static BLOCK: BlockSpec = BlockSpec::whole::<CellularAutomatonGeneral>(About
     summary: "Cells that live and die as 256 rules say, for each set of living neighbours.",
     inputs: &[input("image", Kind::Image)],
     outputs: &[output("image", Planes::Grey)],
-    shown: Shown {
-        over: "simple noise",
-        lower: &[("rules", LIFE), ("iterations", "40")],
-        higher: &[("rules", LIFE), ("states", "12"), ("iterations", "60")],
-    },
     in_pixels: "the cells, and how far a pattern grows in an iteration",
     ..About::DEFAULT
 });
-
-/// The rules of the game of life, for the documentation: three neighbours give birth, with two all
-/// stays as it is.
-const LIFE: &str = match std::str::from_utf8(&LIFE_RULES) {
-    Ok(rules) => rules,
-    Err(_) => "",
-};
-
-const LIFE_RULES: [u8; 511] = {
-    let mut text = [b','; 511];
-    let mut set: u32 = 0;
-    while set < 256 {
-        text[2 * set as usize] = match set.count_ones() {
-            3 => b'1',
-            2 => b'0',
-            _ => b'2',
-        };
-        set += 1;
-    }
-    text
-};
 
 struct CellularAutomatonGeneral;
 

@@ -35,15 +35,6 @@ pub static BLOCK: BlockSpec = BlockSpec::gather::<Convolution>(About {
     summary: "Sums the pixels around each pixel, with weights from a matrix.",
     inputs: &[input("image", Kind::Image).anywhere()],
     outputs: &[output("image", Planes::As(IMAGE))],
-    shown: Shown {
-        over: "",
-        lower: &[("matrix data", "1 0 -1 2 0 -2 1 0 -1")],
-        higher: &[
-            ("matrix width", "9"),
-            ("matrix height", "1"),
-            ("matrix data", "0.2 0.2 0.1 0 0 0 0.1 0.2 0.2"),
-        ],
-    },
     in_pixels: "matrix width, matrix height",
     ..About::DEFAULT
 });

@@ -29,16 +29,6 @@ pub static BLOCK: BlockSpec = BlockSpec::point::<BumpNoise>(About {
     summary: "Dark bumps of several sizes, scattered over white.",
     outputs: &[output("image", Planes::Grey)],
     uses_seed: true,
-    shown: Shown {
-        over: "",
-        lower: &[("bump size from", "0.05"), ("bump size to", "0.02"), ("quantity", "3")],
-        higher: &[
-            ("bump size from", "0.3"),
-            ("bump size to", "0.02"),
-            ("quantity", "2"),
-            ("alter amplitude", "1"),
-        ],
-    },
     ..About::DEFAULT
 });
 
