@@ -22,9 +22,10 @@ expects: an editor's slider has it. Where the essays speak of the *specification
 description of what PT Designer's blocks compute, whose clauses they number; *8-bit precision* is
 explained in [Units and resolution](../src/units.md).
 
-The pictures are 128 × 128 pixels. The first is the block at its defaults; the others move every
-parameter away from them, and say to where. Blocks that take pictures are given these, the first at
-slots 0, 2 and 4, the second at slots 1 and 3, the third where a normal map is wanted:
+The pictures are 128 × 128 pixels. The first is the block at its defaults; the others say
+which parameters they change, and to what. Files are those of `tests/conformance`. Unless a page says
+otherwise, blocks that take pictures are given these, the first at slots 0, 2 and 4, the second at
+slots 1 and 3, the third where a normal map is wanted:
 
 | ![colour](pictures/given-colour.png) | ![grey](pictures/given-grey.png) | ![normal map](pictures/given-normals.png) |
 |---|---|---|

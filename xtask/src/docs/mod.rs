@@ -4,13 +4,15 @@
 //! A page says what the declaration of its block says (`ptc list --json`, see [`registry`]), and
 //! what the essay at the top of the block's file says ([`essay`]). So a new block gets its page
 //! without another line being written. Its pictures show it at its defaults and at two settings
-//! that [`settings`] derives from the declaration; `--pictures` draws them ([`pictures`]).
+//! that [`settings`] derives from the declaration, unless the block's file gives better ones
+//! ([`examples`]); `--pictures` draws them ([`pictures`]).
 //!
 //! Pages and pictures are committed, so that they can be read in the repository. `--check` fails
 //! if pages are not what the declarations give, if pictures are missing or left over, or if a link
 //! of the documentation leads nowhere ([`links`]). It draws nothing, so it is fast.
 
 mod essay;
+mod examples;
 mod index;
 mod links;
 mod markdown;

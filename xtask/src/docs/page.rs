@@ -70,7 +70,10 @@ fn gallery(block: &Block) -> String {
     });
     let lines = "---|".repeat(settings.len());
     let captions = if settings.len() > 1 { row(caption) } else { String::new() };
-    format!("{titles}|{lines}\n{pictures}{captions}")
+    let given = block.examples.source.as_ref().map_or_else(String::new, |(given, _)| {
+        format!("\nHere, the input at slot 0 is [{given}]({}.md).\n", given.replace(' ', "-"))
+    });
+    format!("{titles}|{lines}\n{pictures}{captions}{given}")
 }
 
 fn title(setting: Setting) -> &'static str {

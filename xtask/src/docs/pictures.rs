@@ -134,9 +134,26 @@ impl Sketch {
         self.add("l-system", &[], &[parameter_of("path", "string", &file(GRAMMAR))])
     }
 
+    /// The block that an example gives. The type that a parameter has in files is that of its value.
+    fn given(&mut self, block: &str, parameters: &[(String, String)]) -> usize {
+        let parameters = parameters.iter().map(|(name, value)| {
+            let kind = match value {
+                value if value.parse::<i64>().is_ok() => "int",
+                value if value.parse::<f64>().is_ok() => "double",
+                _ => "string",
+            };
+            parameter_of(name, kind, value)
+        });
+        let parameters: Vec<String> = parameters.collect();
+        self.add(block, &[], &parameters)
+    }
+
     /// Something for the input of a block.
     fn source(&mut self, block: &Block, slot: usize) -> Result<Option<usize>> {
         let input = &block.inputs[slot];
+        if let (0, Some((given, parameters))) = (slot, &block.examples.source) {
+            return Ok(Some(self.given(given, parameters)));
+        }
         Ok(Some(match (input.kind.as_str(), input.id.as_str()) {
             ("image", "normals") => self.normals(),
             ("image", _) if slot.is_multiple_of(2) => self.colour(),
@@ -172,11 +189,17 @@ fn graph(block: &Block, setting: Setting) -> Result<String> {
         inputs.push(sketch.source(block, slot)?);
     }
     let changes = changes(block, setting);
-    let mut parameters: Vec<String> =
-        changes.iter().map(|(spec, value)| parameter(spec, &value_in_files(value))).collect();
+    let mut parameters: Vec<String> = changes
+        .iter()
+        .filter(|(spec, _)| spec.kind != ParameterKind::Path)
+        .map(|(spec, value)| parameter(spec, &value_in_files(value)))
+        .collect();
     let reads_text = block.outputs.iter().any(|output| output.kind == "text");
     for path in block.parameters.iter().filter(|spec| spec.kind == ParameterKind::Path) {
-        parameters.push(parameter(path, &file(if reads_text { GRAMMAR } else { PICTURE })));
+        let given = changes.iter().find(|(spec, _)| spec.id == path.id);
+        let default = if reads_text { GRAMMAR } else { PICTURE };
+        let name = given.map_or_else(|| default.to_owned(), |(_, value)| value_in_files(value));
+        parameters.push(parameter(path, &file(&name)));
     }
     let id = sketch.add(&block.id, &inputs, &parameters);
     let shown = sketch.shown(block, id)?;

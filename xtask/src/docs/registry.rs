@@ -1,11 +1,15 @@
 //! What `ptc list --json` says about the blocks.
 
-use std::{path::Path, process::Command};
+use std::{fs, path::Path, process::Command};
 
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::{Result, process};
+use super::{
+    essay,
+    examples::{self, Examples},
+};
+use crate::{Result, process, repository};
 
 /// A block type.
 #[derive(Debug, Deserialize)]
@@ -22,6 +26,9 @@ pub(super) struct Block {
     pub(super) inputs: Vec<Input>,
     pub(super) outputs: Vec<Output>,
     pub(super) parameters: Vec<Parameter>,
+    /// What its file says about its pictures.
+    #[serde(skip)]
+    pub(super) examples: Examples,
 }
 
 /// What a block is for in a graph.
@@ -99,8 +106,13 @@ struct List {
 /// All blocks, by family and id.
 pub(super) fn read(ptc: &Path) -> Result<Vec<Block>> {
     let list = process::output(Command::new(ptc).args(["list", "--json"]))?;
-    let list: List = serde_json::from_str(&list)?;
-    Ok(list.blocks)
+    let mut blocks = serde_json::from_str::<List>(&list)?.blocks;
+    for block in &mut blocks {
+        let source = fs::read_to_string(repository::root().join(essay::source(block)))?;
+        block.examples = examples::examples(&source);
+        examples::check(block)?;
+    }
+    Ok(blocks)
 }
 
 impl Block {

@@ -1,6 +1,7 @@
 //! The settings that a block is shown at, derived from its declaration.
 //!
-//! Nobody lists them by hand, so that a new block has them too. There are three: the defaults, and
+//! Nobody has to list them, so that a new block has them too; where what is derived says little,
+//! the block's file declares better ones ([`examples`]). There are three: the defaults, and
 //! one on either side of them. *Lower* moves every number from its default towards the lower end of
 //! its usual range and takes the next alternative of every choice; *higher* moves numbers towards
 //! the upper end, takes the alternative after that, and turns every switch. Both take the example
@@ -13,7 +14,10 @@
 
 use serde_json::Value;
 
-use super::registry::{Block, Parameter, ParameterKind, Range, Role};
+use super::{
+    examples,
+    registry::{Block, Parameter, ParameterKind, Range, Role},
+};
 
 /// One of the settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,12 +51,36 @@ pub(super) fn settings(block: &Block) -> Vec<Setting> {
 
 /// The parameters that a setting changes, and their values.
 pub(super) fn changes(block: &Block, setting: Setting) -> Vec<(&Parameter, Value)> {
-    let values = block.parameters.iter();
-    let values = values.map(|parameter| (parameter, value(parameter, block, setting)));
+    let given = given(block, setting);
+    let values = block.parameters.iter().map(|parameter| {
+        let value = match given {
+            Some(pairs) => example_value(parameter, pairs),
+            None => value(parameter, block, setting),
+        };
+        (parameter, value)
+    });
     values.filter(|(parameter, value)| *value != parameter.default).collect()
 }
 
-/// The value of a parameter at a setting.
+/// What the block's file declares for a setting, if it declares any: nothing for one that it omits.
+fn given(block: &Block, setting: Setting) -> Option<&[(String, String)]> {
+    let settings = &block.examples.settings;
+    let place = match setting {
+        Setting::Lower => 0,
+        Setting::Higher => 1,
+        Setting::Default => return None,
+    };
+    (!settings.is_empty()).then(|| settings.get(place).map_or(&[][..], Vec::as_slice))
+}
+
+/// The value of a parameter in an example.
+fn example_value(parameter: &Parameter, pairs: &[(String, String)]) -> Value {
+    let text = pairs.iter().find(|(name, _)| *name == parameter.id);
+    let value = text.and_then(|(_, text)| examples::value(parameter, text));
+    value.unwrap_or_else(|| parameter.default.clone())
+}
+
+/// The derived value of a parameter at a setting.
 fn value(parameter: &Parameter, block: &Block, setting: Setting) -> Value {
     let default = &parameter.default;
     let moved = match (parameter.kind, setting) {

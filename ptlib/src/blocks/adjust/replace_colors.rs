@@ -4,6 +4,10 @@
 //! two levels counts as the lower one, as it would be stored in 8-bit precision. A fifth colour,
 //! which PT Designer compared without ever setting it (BUG), does not exist here.
 
+// Pictured with `square mosaic`: `fill colors` `255,170,85,1`.
+// Pictured: `color 2 red` `1`, `color 2 green` `1`, `color 2 blue` `1`.
+// Pictured: `color 1 red` `1`, `color 1 green` `1`, `color 1 blue` `1`.
+
 use crate::block::prelude::*;
 
 const IMAGE: usize = 0;

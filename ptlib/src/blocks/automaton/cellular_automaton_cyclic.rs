@@ -11,6 +11,11 @@
 //! and six states are looked at, the 440 neighbours of the largest square slide for up to 27
 //! states.
 
+// Pictured with `simple noise`.
+// Pictured: `iterations` `100`, `neighbourhood` `moore`, `neighbourhood size` `1`, `states` `8`,
+//   `threshold` `1`.
+// Pictured: `iterations` `12`, `neighbourhood` `moore`, `states` `3`, `threshold` `9`.
+
 use super::{
     neighbourhood::{MAX_SIZE, Neighbourhood},
     sliding::Sliding,

@@ -5,6 +5,10 @@
 //! Which of the eight neighbours are alive is a number 0..255; the rule of that number says what
 //! becomes of a cell. All cells change at once.
 
+// Pictured with `bump noise`: `bump size from` `0.01`.
+// Pictured: `rules` `0,1,1,0,1,0,0,0,1,0,0,0,0,0,0,0,1`.
+// Pictured: `iterations` `30`, `rules` `0,1,1,2,0,0,0,0,1,0,0,0,0,0,0,0,1`, `states` `12`.
+
 use crate::block::prelude::*;
 use cells::{Grid, Rule, SIDE, value_of_state};
 

@@ -2,6 +2,9 @@
 //!
 //! Specification 2.2.
 
+// Pictured: `red` `210`, `green` `80`, `blue` `40`.
+// Pictured: `red` `40`, `green` `90`, `blue` `160`.
+
 use crate::block::prelude::*;
 
 params! {

@@ -2,6 +2,9 @@
 //!
 //! Specification 2.43.
 
+// Pictured: `data` `0 0 0 128;255 255 255 255`.
+// Pictured: `data` `60 20 60 20;110 90 140 50;111 60 40 20;170 230 190 120;255 255 250 230`.
+
 use crate::block::prelude::*;
 
 params! {

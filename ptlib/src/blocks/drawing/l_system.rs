@@ -3,6 +3,9 @@
 //! Specification 2.44 (Lindenmayer systems with numbers, conditions and chances). A file has the
 //! grammar; [`Grammar`] reads it and rewrites its axiom.
 
+// Pictured: `iterations` `3`.
+// Pictured: `path` `in/stochastic.txt`, `iterations` `12`.
+
 use super::grammar::Grammar;
 use crate::block::prelude::*;
 

@@ -3,6 +3,10 @@
 //! Specification 2.18; [`Swarm`] is the primitive that it shares with the turtle. Traces wrap
 //! around, so the result tiles.
 
+// Pictured: `particles` `60`, `initial velocity` `10`.
+// Pictured: `particles` `120`, `initial x` `0.1`, `initial y` `0.9`, `angle` `40`, `spread` `20`,
+//   `initial velocity` `8`.
+
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::swarm::{Steering, Swarm, Traces, UNITS};

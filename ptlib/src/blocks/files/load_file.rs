@@ -3,6 +3,8 @@
 //! Specification 2.41: stretched to the size of the graph, whatever its own shape; alpha is
 //! dropped. The engine reads the file, as far as the caller's file policy allows it.
 
+// Pictured: `path` `in/shapes.png`.
+
 use crate::block::prelude::*;
 
 params! {

@@ -3,6 +3,10 @@
 //! Specification 2.35; [`Matrix`] makes the sums. They wrap around, also where the
 //! matrix is larger than the image, so the result tiles.
 
+// Pictured: `matrix data` `0 -1 0 -1 5 -1 0 -1 0`.
+// Pictured: `matrix width` `9`, `matrix height` `1`,
+//   `matrix data` `0.11 0.11 0.11 0.11 0.11 0.11 0.11 0.11 0.11`.
+
 use crate::block::prelude::*;
 use convolution::{MAX_SIDE, Matrix};
 

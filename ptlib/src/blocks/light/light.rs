@@ -1,12 +1,12 @@
 //! A lit surface: ambient, diffuse and specular light on a normal map.
 //!
 //! Specification 2.30, after Phong ("Illumination for computer generated pictures", CACM 18(6),
-//! 1975). The light is far away; the viewer hangs over the middle of the picture. In the outer
-//! fifth of it the viewer moves with the pixel instead, so that the view is vertical at the
-//! borders and the picture tiles.
+//! 1975). The light is far away; the viewer hangs over the middle of the picture, but in its outer
+//! fifth moves with the pixel, so that the view is vertical at the borders and the picture tiles.
 //!
 //! Kept from PT Designer: normals are not brought to length 1, so their rounding shows in the
 //! brightness; and the curve `linear full` never falls below one half.
+// Pictured: `diffuse red` `220`, `diffuse blue` `30`; or `diffuse red` `20`, `phong exponent` `9`.
 
 use crate::block::prelude::*;
 
@@ -55,9 +55,9 @@ params! {
             float [hard 0.1..=1000.0 soft 0.1..=50.0 unit "of the width"] = 1.0;
         /// The larger, the smaller the highlights; negative ones light up what would be dark.
         phong_exponent "phong exponent": float [hard -1000.0..=1000.0 soft -10.0..=10.0] = 2.0;
-        /// How much the light comes from the left; 1 is 45°.
+        /// How much the light comes from the right, if bright is high; 1 is 45°, -1 from the left.
         direction_x "direction vector x": float [hard -10000.0..=10000.0 soft -99.0..=99.0] = 0.5;
-        /// How much the light comes from above; 1 is 45°.
+        /// How much the light comes from below, if bright is high; 1 is 45°, -1 from above.
         direction_y "direction vector y": float [hard -10000.0..=10000.0 soft -99.0..=99.0] = 0.5;
     }
 }

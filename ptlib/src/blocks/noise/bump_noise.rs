@@ -4,6 +4,9 @@
 //! there, saturating at black; as no amount is negative, that is the same as subtracting their sum.
 //! So a row is white minus the bumps that reach it, and rows do not depend on each other.
 
+// Pictured: `bump size from` `0.08`, `bump size to` `0.02`.
+// Pictured: `bump size from` `0.3`, `bump size to` `0.03`, `quantity` `2`, `alter amplitude` `yes`.
+
 use std::ops::Range;
 
 use super::bump_sizes::{bumps, exact_bumps, radii};

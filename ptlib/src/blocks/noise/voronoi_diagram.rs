@@ -3,6 +3,7 @@
 //! Specification 2.1. Distances wrap around, so the diagram tiles wherever its points lie. Where
 //! they lie is [`placement`]'s business; [`Cells`] finds the few that matter for a pixel.
 //! In 8-bit precision the points of figures may lie beyond the image: see [`shown`].
+// Pictured: `type` `cell color`; or `type` `nearest distance`, `metric` `chebyshev`.
 
 use super::super::drawing::walk::Start;
 use super::voronoi::{

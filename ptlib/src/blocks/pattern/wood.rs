@@ -4,6 +4,9 @@
 //! the noise pushes at most, and lets the frame come back in at the opposite edges; where several
 //! rings meet, the darkest wins. [`Rings`] finds them from the pixel's side.
 
+// Pictured: `circles` `2`, `intensity` `8`, `hardness` `3`.
+// Pictured: `circles` `9`, `hardness` `3`, `intensity` `40`, `direction` `down`.
+
 use super::{
     super::noise::lattice::LatticeNoise,
     grain::{self, Direction},

@@ -9,6 +9,9 @@
 //! jumps) comes out right only this way. In 8-bit precision that is kept. In float precision all
 //! positions are rounded down, and the result tiles.
 
+// Pictured: `radius` `3`, `jumps` `4`.
+// Pictured: `radius` `15`.
+
 use std::f64::consts::PI;
 
 use crate::block::prelude::*;

@@ -4,6 +4,9 @@
 //! that height, meets the picture; there is no index of refraction. The normal map is read at the
 //! same position only, so it need not exist as a whole.
 
+// Pictured: `height` `0.2`.
+// Pictured: `height` `2`.
+
 use crate::block::prelude::*;
 
 const IMAGE: usize = 0;
