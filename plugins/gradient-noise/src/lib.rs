@@ -2,7 +2,7 @@
 //!
 //! The noises of ptlib itself interpolate values on a lattice, which leaves its axes visible. Noise
 //! from gradients has no such blocks. Both kinds here tile at every size: their lattices wrap
-//! around ([`perlin`], [`simplex`]), and octaves are added up by [`fractal`].
+//! around (`perlin`, `simplex`), and octaves are added up by `fractal`.
 
 mod fractal;
 mod lattice;

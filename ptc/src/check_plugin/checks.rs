@@ -3,7 +3,7 @@
 use std::{
     fs,
     path::Path,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, PoisonError, mpsc},
     thread,
     time::{Duration, Instant},
 };
@@ -29,6 +29,12 @@ const TRIALS: u64 = 60;
 
 /// Sizes of those computations: small and odd ones, where most faults are.
 const SIZES: [(u32, u32); 6] = [(1, 1), (1, 17), (13, 7), (40, 24), (7, 64), (65, 33)];
+
+/// A computation with random parameters is stopped after this time.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// No more instances are made after this time.
+const MOST_OF_CREATIONS: Duration = Duration::from_secs(20);
 
 /// How often an instance is made to see whether memory grows.
 const CREATIONS: u32 = 1000;
@@ -280,7 +286,14 @@ impl Specimen<'_> {
                     named.map(|(p, value)| format!("{} {}", p.id, word(value))).collect();
                 format!("at {} × {} with {}: {fault}", size.0, size.1, named.join(", "))
             };
-            if let Err(error) = self.compute(&graph, || options(size, None, 0))
+            // Parameters may ask for hours of work: a while shows enough.
+            let cancel = Cancel::new();
+            let watch = Watch::start(&cancel, PATIENCE);
+            let limited =
+                || ComputeOptions { cancel: Some(cancel.clone()), ..options(size, None, 0) };
+            let computed = self.compute(&graph, limited);
+            drop(watch);
+            if let Err(error) = computed
                 && is_defect(&error)
             {
                 faults.push(with(&error.to_string()));
@@ -407,14 +420,48 @@ impl Specimen<'_> {
             }
             Ok(())
         };
-        create(CREATIONS / 10)?;
+        create(1)?;
         let before = resident_bytes();
-        create(CREATIONS)?;
+        let until = Instant::now() + MOST_OF_CREATIONS;
+        for _ in 0..CREATIONS {
+            create(1)?;
+            if Instant::now() > until {
+                break;
+            }
+        }
         let grown = resident_bytes().zip(before).map(|(now, before)| now.saturating_sub(before));
         let grown = grown.filter(|grown| *grown > GROWTH);
         Ok(grown.map_or(vec![], |grown| {
-            vec![format!("memory grew by {} KiB in {CREATIONS} computations", grown / 1024)]
+            vec![format!("memory grew by {} KiB in at most {CREATIONS} computations", grown / 1024)]
         }))
+    }
+}
+
+/// Asks a computation to stop after a while, unless it is dropped before.
+struct Watch {
+    done: Option<mpsc::Sender<()>>,
+    thread: Option<thread::JoinHandle<()>>,
+}
+
+impl Watch {
+    fn start(cancel: &Cancel, patience: Duration) -> Self {
+        let (done, ended) = mpsc::channel::<()>();
+        let cancel = cancel.clone();
+        let thread = thread::spawn(move || {
+            if ended.recv_timeout(patience) == Err(mpsc::RecvTimeoutError::Timeout) {
+                cancel.request();
+            }
+        });
+        Self { done: Some(done), thread: Some(thread) }
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        drop(self.done.take());
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
     }
 }
 
