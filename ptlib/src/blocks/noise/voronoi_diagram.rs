@@ -188,12 +188,12 @@ impl Voronoi {
     fn write<L: Levels, M: Measure>(&self, cells: &Cells, cx: &RowContext<'_>, out: &mut [f32]) {
         match self.shows {
             Shows::Distance => cells.nearest::<M>(cx, out, |nearest, _| {
-                shown::distance::<L>(M::distance(nearest) * self.unit)
+                shown::distances::<L>(nearest.map(|nearest| M::distance(nearest) * self.unit))
             }),
             Shows::Ratio => cells.nearest_two::<M>(cx, out, |nearest, second| {
-                shown::ratio::<L>(M::distance(nearest), M::distance(second))
+                shown::ratios::<L>(nearest.map(M::distance), second.map(M::distance))
             }),
-            Shows::Shade => cells.nearest::<M>(cx, out, |_, shade| shade),
+            Shows::Shade => cells.nearest::<M>(cx, out, |_, shades| shades),
         }
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::{
     SIDE,
-    cutting::{Candidates, Torus},
+    cutting::{Candidates, Square, Torus},
     greater,
 };
 use crate::block::prelude::*;
@@ -42,9 +42,10 @@ impl Buckets {
             }
         }
         let buckets = Self::sorted(points, tiles, side);
-        // Squares in the void look far around. Where most buckets are empty, one is better.
+        // Squares in the void look far around. Where points crowd in few buckets, one is better.
         let used = buckets.starts.windows(2).filter(|ends| ends[0] < ends[1]).count();
-        if used * 2 > buckets.starts.len() { buckets } else { Self::sorted(points, tiles, whole) }
+        let most = points.count.min(buckets.starts.len() - 1);
+        if used * 2 > most { buckets } else { Self::sorted(points, tiles, whole) }
     }
 
     fn sorted(points: &Candidates, tiles: [usize; 2], side: usize) -> Self {
@@ -73,25 +74,25 @@ impl Buckets {
         Self { points, starts, count, side }
     }
 
-    /// Writes the points of the bucket at `tile` and of `rings` rings of buckets around it. Returns
-    /// how far in one direction all other points are from it at least.
+    /// Writes the points of the buckets in a square and of `rings` rings of buckets around it.
+    /// Returns how far in one direction all other points are from it at least.
     pub(super) fn around(
         &self,
-        tile: [usize; 2],
+        square: Square,
         rings: usize,
         torus: Torus,
         near: &mut Candidates,
     ) -> f32 {
         let side = convert::position(self.side * SIDE);
         near.count = 0;
-        // No pixel of the bucket has more than half a turn to any of the points.
-        near.is_straight = [0, 1]
-            .iter()
-            .all(|axis| convert::position(2 * (rings + 1)) * side <= torus.size[*axis]);
-        let [columns, rows] = [0, 1].map(|axis| {
-            let own = tile[axis] >> self.side.trailing_zeros();
+        let own = square.side / self.side;
+        // No pixel of the square has more than half a turn to any of the points.
+        near.is_straight =
+            torus.size.iter().all(|size| convert::position(2 * (rings + own)) * side <= *size);
+        let [columns, rows] = [(0, square.x), (1, square.y)].map(|(axis, tile)| {
+            let first = tile >> self.side.trailing_zeros();
             let turn = if near.is_straight { torus.size[axis] } else { 0.0 };
-            pieces(own, rings, self.count[axis], turn)
+            pieces(first..first + own, rings, self.count[axis], turn)
         });
         for (rows, down) in &rows {
             for row in rows.clone() {
@@ -102,7 +103,7 @@ impl Buckets {
                 }
             }
         }
-        if self.count.iter().all(|count| 2 * rings + 1 >= *count) {
+        if self.count.iter().all(|count| 2 * rings + own >= *count) {
             return f32::INFINITY;
         }
         // The last bucket of a row or column may be narrower than the others.
@@ -111,16 +112,16 @@ impl Buckets {
     }
 }
 
-/// Of `count` buckets in a circle, one and `rings` on each side of it: in two pieces, since there
+/// Of `count` buckets in a circle, some and `rings` on each side of them: in two pieces, since there
 /// may be an edge between them. How far to move the points of each piece to have them where they
 /// are without the edge, for a circle of length `turn`.
-fn pieces(own: usize, rings: usize, count: usize, turn: f32) -> [(Range<usize>, f32); 2] {
-    let end = own + rings + 1;
-    if 2 * rings + 1 >= count {
+fn pieces(own: Range<usize>, rings: usize, count: usize, turn: f32) -> [(Range<usize>, f32); 2] {
+    let end = own.end + rings;
+    if 2 * rings + own.len() >= count {
         [(0..count, 0.0), (0..0, 0.0)]
-    } else if own < rings {
-        [(own + count - rings..count, -turn), (0..end, 0.0)]
+    } else if own.start < rings {
+        [(own.start + count - rings..count, -turn), (0..end, 0.0)]
     } else {
-        [(own - rings..end.min(count), 0.0), (0..end.saturating_sub(count), turn)]
+        [(own.start - rings..end.min(count), 0.0), (0..end.saturating_sub(count), turn)]
     }
 }

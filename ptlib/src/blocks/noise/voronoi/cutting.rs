@@ -13,7 +13,7 @@ use super::{
     Measure, Point, SIDE, around,
     buckets::Buckets,
     lesser,
-    lists::{GROUP, Part, add, least_two},
+    lists::{GROUP, LANES, Part, add, least_two},
 };
 use crate::block::prelude::*;
 
@@ -48,13 +48,11 @@ pub(super) struct Square {
 }
 
 impl Square {
-    fn quarters(self) -> [Self; 4] {
-        let side = self.side / 2;
-        [(0, 0), (side, 0), (0, side), (side, side)].map(|(x, y)| Self {
-            x: self.x + x,
-            y: self.y + y,
-            side,
-        })
+    /// The squares of that side that it consists of, row by row.
+    fn pieces(self, side: usize) -> impl Iterator<Item = Self> {
+        let Self { x, y, side: whole } = self;
+        let step = move |first: usize| (first..first + whole).step_by(side);
+        step(y).flat_map(move |y| step(x).map(move |x| Self { x, y, side }))
     }
 
     /// Its pixels in an image of that size.
@@ -83,6 +81,7 @@ struct Area {
 #[derive(Debug, Default)]
 pub(super) struct Candidates {
     pub(super) count: usize,
+    /// Empty where nobody asks for them.
     pub(super) numbers: Vec<u32>,
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
@@ -92,13 +91,16 @@ pub(super) struct Candidates {
 }
 
 impl Candidates {
-    /// Those of these numbers.
-    pub(super) fn of(points: &[Point], numbers: &[u32]) -> Self {
+    /// Those of these numbers, which are kept if `numbered`.
+    pub(super) fn of(points: &[Point], numbers: &[u32], numbered: bool) -> Self {
         let mut all = Self { count: numbers.len(), ..Self::default() };
-        all.make_room(numbers.len());
+        all.make_room(numbers.len(), numbered);
         for (i, number) in numbers.iter().enumerate() {
             let point = points[*number as usize];
-            (all.numbers[i], all.x[i], all.y[i]) = (*number, point.x, point.y);
+            (all.x[i], all.y[i]) = (point.x, point.y);
+        }
+        if numbered {
+            all.numbers[..numbers.len()].copy_from_slice(numbers);
         }
         all
     }
@@ -106,28 +108,35 @@ impl Candidates {
     /// Those at these places.
     pub(super) fn ordered(&self, places: &[usize]) -> Self {
         let mut all = Self { count: places.len(), ..Self::default() };
-        all.make_room(places.len());
+        all.make_room(places.len(), self.is_numbered());
         for (i, place) in places.iter().enumerate() {
-            all.numbers[i] = self.numbers[*place];
             (all.x[i], all.y[i]) = (self.x[*place], self.y[*place]);
+        }
+        for (number, place) in all.numbers.iter_mut().zip(places) {
+            *number = self.numbers[*place];
         }
         all
     }
 
+    #[inline(always)]
+    fn is_numbered(&self) -> bool {
+        !self.numbers.is_empty()
+    }
+
     /// Makes room for so many, and for a register more.
     #[inline(always)]
-    fn make_room(&mut self, count: usize) {
+    fn make_room(&mut self, count: usize, numbered: bool) {
         if self.x.len() < count + SIDE {
-            self.numbers.resize(count + SIDE, 0);
             self.x.resize(count + SIDE, 0.0);
             self.y.resize(count + SIDE, 0.0);
+            self.numbers.resize(if numbered { count + SIDE } else { 0 }, 0);
         }
     }
 
     /// Appends those at some places of `other`, moved by a distance.
     #[inline(always)]
     pub(super) fn append(&mut self, other: &Self, places: Range<usize>, by: [f32; 2]) {
-        self.make_room(self.count + places.len());
+        self.make_room(self.count + places.len(), other.is_numbered());
         let mut to = self.count;
         self.count += places.len();
         for from in places.step_by(SIDE) {
@@ -140,7 +149,9 @@ impl Candidates {
             for i in 0..SIDE {
                 to_y[i] = from_y[i] + by[1];
             }
-            self.numbers[to..to + SIDE].copy_from_slice(&other.numbers[from..from + SIDE]);
+            if other.is_numbered() {
+                self.numbers[to..to + SIDE].copy_from_slice(&other.numbers[from..from + SIDE]);
+            }
             to += SIDE;
         }
     }
@@ -149,14 +160,15 @@ impl Candidates {
     #[inline(always)]
     fn pick(&mut self, other: &Self, least: &[f32], reach: f32) {
         let count = other.count;
-        self.make_room(count);
-        let from = (&other.numbers[..count], &other.x[..count], &other.y[..count]);
-        let to = (&mut self.numbers[..count], &mut self.x[..count], &mut self.y[..count]);
-        let mut found = 0;
-        for (i, least) in least[..count].iter().enumerate() {
-            // Written in any case, which is faster than to guess which ones are near.
-            (to.0[found], to.1[found], to.2[found]) = (from.0[i], from.1[i], from.2[i]);
-            found += usize::from(*least <= reach);
+        self.make_room(count, other.is_numbered());
+        let least = &least[..count];
+        let (from_x, from_y) = (&other.x[..count], &other.y[..count]);
+        let (x, y) = (&mut self.x[..count], &mut self.y[..count]);
+        let found =
+            positions(least, reach, |from, to| (x[to], y[to]) = (from_x[from], from_y[from]));
+        if other.is_numbered() {
+            let (numbers, all) = (&mut self.numbers[..count], &other.numbers[..count]);
+            positions(least, reach, |from, to| numbers[to] = all[from]);
         }
         self.count = found;
         self.is_straight = other.is_straight;
@@ -192,6 +204,19 @@ impl Candidates {
     }
 }
 
+/// Tells where the numbers are that are not greater than `reach`, and how many were before them.
+/// Returns how many there are.
+#[inline(always)]
+fn positions(numbers: &[f32], reach: f32, mut found: impl FnMut(usize, usize)) -> usize {
+    let mut count = 0;
+    for (i, number) in numbers.iter().enumerate() {
+        // Told of the others too, which is faster than to guess which ones they are.
+        found(i, count);
+        count += usize::from(*number <= reach);
+    }
+    count
+}
+
 /// Makes the lists of a part, of the points of `buckets`.
 pub(super) fn cut<M: Measure>(
     part: &mut Part,
@@ -204,14 +229,11 @@ pub(super) fn cut<M: Measure>(
     sizes.resize_with(part.square.side.ilog2() as usize + 1, Candidates::default);
     let (square, measure) = (part.square, PhantomData::<M>);
     part.start();
-    let mut cutting = Cutting { part, torus, points, cx, least: Vec::new(), measure };
-    let mut near = Candidates::default();
-    let step = |first: usize| (first..first + square.side).step_by(buckets.side);
-    for (x, y) in step(square.y).flat_map(|y| step(square.x).map(move |x| (x, y))) {
-        let square = Square { x, y, side: buckets.side.min(square.side) };
-        cutting.start(square, buckets, &mut near, &mut sizes)?;
-    }
-    Ok(())
+    let (mut near, least) = ([Candidates::default(), Candidates::default()], Vec::new());
+    let mut cutting = Cutting { part, torus, points, cx, least, measure };
+    // Neighbours start with the same points, which takes less time than to collect them for each.
+    let side = (2 * buckets.side).min(square.side);
+    square.pieces(side).try_for_each(|square| cutting.start(square, buckets, &mut near, &mut sizes))
 }
 
 /// A part that is being cut.
@@ -226,27 +248,50 @@ struct Cutting<'a, M> {
 }
 
 impl<M: Measure> Cutting<'_, M> {
-    /// Cuts a square in a bucket, with points from the buckets around. There is memory for its own
-    /// candidates and those of each smaller size of squares.
+    /// Cuts the buckets in a square, with points from the buckets around. There is memory for these
+    /// points and for those farther away, and for the candidates of a bucket and of each smaller
+    /// size of squares.
     fn start(
+        &mut self,
+        square: Square,
+        buckets: &Buckets,
+        [near, farther]: &mut [Candidates; 2],
+        sizes: &mut [Candidates],
+    ) -> Result<(), Error> {
+        if self.is_outside(square) {
+            return Ok(());
+        }
+        let known = buckets.around(square, FIRST_RINGS, self.torus, near);
+        for square in square.pieces(buckets.side.min(square.side)) {
+            if self.is_outside(square) {
+                continue;
+            }
+            self.cx.check()?;
+            if self.pick(square, near, sizes) > M::compare(known, 0.0) {
+                self.look_farther(square, buckets, farther, sizes)?;
+            }
+            self.settle(square, sizes)?;
+        }
+        Ok(())
+    }
+
+    /// Picks the candidates of a square in a bucket, of the points in so many rings of buckets that
+    /// none outside of them matters.
+    fn look_farther(
         &mut self,
         square: Square,
         points: &Buckets,
         near: &mut Candidates,
         sizes: &mut [Candidates],
     ) -> Result<(), Error> {
-        if self.is_outside(square) {
-            return Ok(());
-        }
         let mut rings = FIRST_RINGS;
         loop {
             self.cx.check()?;
-            let known = points.around([square.x, square.y], rings, self.torus, near);
-            let reach = self.pick(square, near, sizes);
-            if reach <= M::compare(known, 0.0) {
-                return self.settle(square, sizes);
-            }
             rings += rings.div_ceil(2);
+            let known = points.around(square, rings, self.torus, near);
+            if self.pick(square, near, sizes) <= M::compare(known, 0.0) {
+                return Ok(());
+            }
         }
     }
 
@@ -294,7 +339,7 @@ impl<M: Measure> Cutting<'_, M> {
             self.part.keep(square, own, points);
             return Ok(());
         }
-        square.quarters().into_iter().try_for_each(|quarter| self.cut(quarter, own, smaller))
+        square.pieces(square.side / 2).try_for_each(|quarter| self.cut(quarter, own, smaller))
     }
 }
 
@@ -366,9 +411,12 @@ impl Area {
         for (number, ((least, x), y)) in chunks.take(points.count.div_ceil(SIDE)).enumerate() {
             let mut most;
             (*least, most) = self.eight_distances::<M>(x, y, &way);
-            let left = points.count - number * SIDE;
-            if left < SIDE {
-                most[left..].fill(f32::INFINITY);
+            let left = convert::position(points.count - number * SIDE);
+            for lane in 0..SIDE {
+                // By bits: a choice between numbers would become a branch for each.
+                let is_one = 0_u32.wrapping_sub(u32::from(LANES[lane] < left));
+                let bits = most[lane].to_bits() & is_one | f32::INFINITY.to_bits() & !is_one;
+                most[lane] = f32::from_bits(bits);
             }
             add(&mut first, &mut second, &most);
         }
@@ -384,14 +432,22 @@ impl Area {
         way: &impl Fn(f32, usize) -> f32,
     ) -> ([f32; SIDE], [f32; SIDE]) {
         let (mut least, mut most) = ([0.0; SIDE], [0.0; SIDE]);
+        let (mut across, mut down) = ([0.0; SIDE], [0.0; SIDE]);
         let [half_width, half_height] = self.half;
+        // A loop for each step, or else the compiler mixes lanes.
         for lane in 0..SIDE {
-            let across = way((self.middle[0] - x[lane]).abs(), 0);
-            let down = way((self.middle[1] - y[lane]).abs(), 1);
-            let [least_across, most_across] = M::range(across, half_width);
-            let [least_down, most_down] = M::range(down, half_height);
-            least[lane] = M::compare(least_across, least_down);
-            most[lane] = M::compare(most_across, most_down);
+            across[lane] = way((self.middle[0] - x[lane]).abs(), 0);
+        }
+        for lane in 0..SIDE {
+            down[lane] = way((self.middle[1] - y[lane]).abs(), 1);
+        }
+        for lane in 0..SIDE {
+            let least_across = M::least(across[lane], half_width);
+            least[lane] = M::compare(least_across, M::least(down[lane], half_height));
+        }
+        for lane in 0..SIDE {
+            let most_across = M::most(across[lane], half_width);
+            most[lane] = M::compare(most_across, M::most(down[lane], half_height));
         }
         (least, most)
     }

@@ -15,7 +15,8 @@ use crate::block::prelude::*;
 /// So many points are looked at together. A power of 2.
 pub(super) const GROUP: usize = 4;
 
-const LANES: [f32; SIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+/// The numbers of the lanes of a register.
+pub(super) const LANES: [f32; SIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// Points of a list.
 #[derive(Debug, Clone, Copy)]
@@ -247,8 +248,8 @@ impl Nearest {
     }
 
     #[inline(always)]
-    pub(super) fn shade(&self, lane: usize) -> f32 {
-        f32::from_bits(self.shade[lane])
+    pub(super) fn shades(&self) -> [f32; SIDE] {
+        self.shade.map(f32::from_bits)
     }
 }
 

@@ -44,12 +44,18 @@ pub(super) trait Measure {
     /// The distance, from what [`compare`](Self::compare) gave.
     fn distance(compared: f32) -> f32;
 
-    /// The least and the greatest distance along one direction that [`compare`](Self::compare) gets
-    /// to see between a point and pixels, of which the middle one is at `distance` and no other is
-    /// more than `half` from that. It is negative where a point lies more than a turn away.
+    /// The least distance along one direction that [`compare`](Self::compare) gets to see between a
+    /// point and pixels, of which the middle one is at `distance` and no other is more than `half`
+    /// from that. It is negative where a point lies more than a turn away.
     #[inline(always)]
-    fn range(distance: f32, half: f32) -> [f32; 2] {
-        [distance - half, distance + half]
+    fn least(distance: f32, half: f32) -> f32 {
+        distance - half
+    }
+
+    /// The greatest one.
+    #[inline(always)]
+    fn most(distance: f32, half: f32) -> f32 {
+        distance + half
     }
 }
 
@@ -68,10 +74,14 @@ impl Measure for Euclidean {
     }
 
     #[inline(always)]
-    fn range(distance: f32, half: f32) -> [f32; 2] {
+    fn least(distance: f32, half: f32) -> f32 {
         // Squares do not tell what was negative.
-        let distance = distance.abs();
-        [greater(distance - half, 0.0), distance + half]
+        greater(distance.abs() - half, 0.0)
+    }
+
+    #[inline(always)]
+    fn most(distance: f32, half: f32) -> f32 {
+        distance.abs() + half
     }
 }
 
@@ -145,7 +155,7 @@ impl Cells {
     ) -> Result<Self, Error> {
         let tiles = [cx.width, cx.height].map(|size| (size as usize).div_ceil(SIDE));
         let distinct = distinct(points, needed);
-        let candidates = Candidates::of(points, &distinct);
+        let candidates = Candidates::of(points, &distinct, needed == 1);
         let torus = Torus { size: [convert::pixels(cx.width), convert::pixels(cx.height)], needed };
         let buckets = Buckets::new(&candidates, tiles, torus);
         let most = Self::most_groups(points.len() as u64, (tiles[0] * tiles[1]) as u64);
@@ -158,37 +168,32 @@ impl Cells {
         Ok(Self { parts, across: tiles[0].div_ceil(side), side, size: torus.size })
     }
 
-    /// Writes `shown` of the comparison number and the shade of each pixel's nearest point.
+    /// Writes `shown` of the comparison numbers and the shades of the nearest points of some pixels.
     #[inline(always)]
     pub(super) fn nearest<M: Measure>(
         &self,
         cx: &RowContext<'_>,
         out: &mut [f32],
-        shown: impl Fn(f32, f32) -> f32,
+        shown: impl Fn([f32; SIDE], [f32; SIDE]) -> [f32; SIDE],
     ) {
         for tile in self.tiles(cx, out) {
             let nearest = tile.list.nearest::<M>(tile.at, self.size);
-            let value = |lane: usize| shown(nearest.compared[lane], nearest.shade(lane));
-            tile.write(&std::array::from_fn(value));
+            tile.write(&shown(nearest.compared, nearest.shades()));
         }
     }
 
-    /// Writes `shown` of the comparison numbers of each pixel's two nearest points; the second is
-    /// infinite if there is but one.
+    /// Writes `shown` of the comparison numbers of the two nearest points of some pixels; the second
+    /// is infinite if there is but one.
     #[inline(always)]
     pub(super) fn nearest_two<M: Measure>(
         &self,
         cx: &RowContext<'_>,
         out: &mut [f32],
-        shown: impl Fn(f32, f32) -> f32,
+        shown: impl Fn([f32; SIDE], [f32; SIDE]) -> [f32; SIDE],
     ) {
         for tile in self.tiles(cx, out) {
             let (first, second) = tile.list.nearest_two::<M>(tile.at, self.size);
-            let mut values = [0.0; SIDE];
-            for lane in 0..SIDE {
-                values[lane] = shown(first[lane], second[lane]);
-            }
-            tile.write(&values);
+            tile.write(&shown(first, second));
         }
     }
 
