@@ -5,12 +5,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use ptlib::{Engine, EngineOptions, Error, ErrorKind, Graph};
+use ptlib::{Engine, Error, ErrorKind, Graph};
 use serde::Serialize;
 
 use crate::{
     exit::{Exit, Fault},
     finding::{Finding, Severity, findings},
+    plugins::PluginOptions,
     terminal::{self, Printable},
 };
 
@@ -24,6 +25,9 @@ pub(crate) struct CheckArguments {
     /// Print the faults as JSON: {"files": [{"file", "is_sound", "faults": [...]}]}
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    plugins: PluginOptions,
 }
 
 /// What was found in all files: what `--json` prints.
@@ -63,8 +67,7 @@ struct FaultReport {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<Exit, Fault> {
-    // Nothing is computed, so no threads are needed.
-    let engine = Engine::new(EngineOptions { threads: 1, cache_bytes: 0, ..Default::default() });
+    let engine = arguments.plugins.engine_for_types()?;
     let found: Vec<_> =
         arguments.graphs.iter().map(|path| (path.as_path(), check(&engine, path))).collect();
     let mut out = terminal::stdout();
@@ -169,6 +172,8 @@ fn fault_report(finding: &Finding) -> FaultReport {
 
 #[cfg(test)]
 mod tests {
+    use ptlib::EngineOptions;
+
     use super::*;
 
     fn engine() -> Engine {

@@ -8,13 +8,14 @@ use crate::{
     describe::DescribeArguments,
     exit::{Exit, Fault},
     list::ListArguments,
+    plugins::PluginsArguments,
     render::RenderArguments,
 };
 
 const EXIT_CODES: &str = "\
 Exit codes:
   0    done
-  1    a file or a computation failed, or `check` found an error
+  1    a file or a computation failed, `check` found an error, or a plug-in was refused
   2    the command line makes no sense; nothing was done
   3    some graphs of a batch failed, the others were rendered
   130  cancelled by Ctrl-C";
@@ -37,6 +38,8 @@ pub(crate) enum Command {
     Describe(DescribeArguments),
     /// Check graph files and show every fault with its line and column.
     Check(CheckArguments),
+    /// Show which plug-ins are found where, and why something is none.
+    Plugins(PluginsArguments),
     /// Check a plug-in: whether it keeps what the contract promises.
     CheckPlugin(CheckPluginArguments),
 }

@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 
-use ptlib::block::Registry;
 use serde_json::Value;
 
 use crate::{
@@ -11,7 +10,8 @@ use crate::{
         RangeDescription,
     },
     exit::{Exit, Fault},
-    terminal::{self, wrap},
+    plugins::PluginOptions,
+    terminal::{self, Printable, wrap},
 };
 
 /// The command's arguments.
@@ -24,17 +24,20 @@ pub(crate) struct DescribeArguments {
     /// Print the description as JSON
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    plugins: PluginOptions,
 }
 
 /// Runs the command.
 pub(crate) fn run(arguments: &DescribeArguments) -> Result<Exit, Fault> {
-    let registry = Registry::builtin();
+    let engine = arguments.plugins.engine_for_types()?;
+    let registry = engine.registry();
     let id = arguments.block.join(" ");
     let spec = registry.get(&id).map_err(|error| {
         Fault::usage(error.message(), error.hint().unwrap_or("`ptc list` shows all"))
     })?;
-    let family = registry.family_of(spec.about.id).unwrap_or_default();
-    let block = BlockDescription::of(spec, family);
+    let block = BlockDescription::of(registry, spec);
     let mut out = terminal::stdout();
     if arguments.json {
         terminal::write_json(&mut out, &block)?;
@@ -221,17 +224,25 @@ fn notes(block: &BlockDescription) -> Vec<String> {
     if block.uses_seed {
         notes.push("Seed: another one gives another picture.".to_owned());
     }
-    notes.push(format!("Since version {}.", block.since));
+    if let Some(since) = &block.since {
+        notes.push(format!("Since version {since}."));
+    }
+    if let Some(plugin) = &block.plugin {
+        notes.push(format!("From a plug-in: {}.", plugin.in_words()));
+        notes.extend(plugin.file.as_ref().map(|file| format!("Its file: {}", Printable(file))));
+    }
     notes
 }
 
 #[cfg(test)]
 mod tests {
+    use ptlib::block::Registry;
+
     use super::*;
 
     fn page(columns: usize, id: &str) -> String {
         let registry = Registry::builtin();
-        let block = BlockDescription::of(registry.find(id).unwrap(), "f");
+        let block = BlockDescription::of(&registry, registry.find(id).unwrap());
         let mut out = Vec::new();
         Page { out: &mut out, columns }.print(&block).unwrap();
         String::from_utf8(anstream::adapter::strip_bytes(&out).into_vec()).unwrap()

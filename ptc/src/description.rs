@@ -4,7 +4,9 @@
 //! apply (the range of a text, say) is left out.
 
 use ptlib::{
-    block::{Access, BlockSpec, InputPort, OutputPort, Planes, Role, Shape, Tiling},
+    block::{
+        Access, BlockSpec, InputPort, OutputPort, Planes, PluginInfo, Registry, Role, Shape, Tiling,
+    },
     params::{ChoiceItem, DefaultValue, FileUse, ParamKind, ParamSpec, Range},
 };
 use serde::Serialize;
@@ -21,8 +23,9 @@ pub(crate) struct BlockDescription {
     pub(crate) role: &'static str,
     /// `point`, `gather` or `whole`.
     pub(crate) shape: &'static str,
-    /// The version of ptlib that it came with.
-    pub(crate) since: String,
+    /// The version of ptlib that it came with, if it is built in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) since: Option<String>,
     /// Whether another seed gives another picture.
     pub(crate) uses_seed: bool,
     /// Whether its output always tiles when its inputs do.
@@ -36,6 +39,55 @@ pub(crate) struct BlockDescription {
     pub(crate) inputs: Vec<InputDescription>,
     pub(crate) outputs: Vec<OutputDescription>,
     pub(crate) parameters: Vec<ParameterDescription>,
+    /// The plug-in that it comes from, if it is not built in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) plugin: Option<PluginDescription>,
+}
+
+/// A plug-in. What it does not say is left out.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(crate) struct PluginDescription {
+    pub(crate) id: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) name: &'static str,
+    pub(crate) version: &'static str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) vendor: &'static str,
+    /// An SPDX expression.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) license: &'static str,
+    /// The compiler.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) built_with: &'static str,
+    /// Its file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) file: Option<String>,
+}
+
+impl PluginDescription {
+    pub(crate) fn of(plugin: &'static PluginInfo) -> Self {
+        Self {
+            id: &plugin.id,
+            name: &plugin.name,
+            version: &plugin.version,
+            vendor: &plugin.vendor,
+            license: &plugin.license,
+            built_with: &plugin.built_with,
+            file: plugin.path.as_ref().map(|path| path.display().to_string()),
+        }
+    }
+
+    /// `gradient-noise 1.0.0 by its vendor, MIT`.
+    pub(crate) fn in_words(&self) -> String {
+        let mut words = format!("{} {}", self.id, self.version);
+        if !self.vendor.is_empty() {
+            words.extend([" by ", self.vendor]);
+        }
+        if !self.license.is_empty() {
+            words.extend([", ", self.license]);
+        }
+        words
+    }
 }
 
 /// An input. Files name it by its place, from 0.
@@ -110,9 +162,10 @@ pub(crate) struct ChoiceDescription {
 }
 
 impl BlockDescription {
-    /// The description of a block type.
-    pub(crate) fn of(spec: &BlockSpec, family: &'static str) -> Self {
+    /// The description of a block type of `registry`.
+    pub(crate) fn of(registry: &Registry, spec: &BlockSpec) -> Self {
         let about = &spec.about;
+        let plugin = registry.plugin_of(about.id).map(PluginDescription::of);
         let tiling_exception = match about.tiling {
             Tiling::Always => None,
             Tiling::ExceptInEightBit(exception) => Some(format!("in 8-bit precision {exception}")),
@@ -120,11 +173,14 @@ impl BlockDescription {
         };
         Self {
             id: about.id,
-            family,
+            family: registry.family_of(about.id).unwrap_or_default(),
             summary: about.summary,
             role: role(about.role),
             shape: shape(spec.shape()),
-            since: format!("{}.{}", about.since / 1000, about.since % 1000),
+            since: match plugin {
+                None => Some(format!("{}.{}", about.since / 1000, about.since % 1000)),
+                Some(_) => None,
+            },
             uses_seed: about.uses_seed,
             tiles: tiling_exception.is_none(),
             tiling_exception,
@@ -132,6 +188,7 @@ impl BlockDescription {
             inputs: about.inputs.iter().map(InputDescription::of).collect(),
             outputs: about.outputs.iter().map(|port| output(port, about.inputs)).collect(),
             parameters: spec.params.iter().map(ParameterDescription::of).collect(),
+            plugin,
         }
     }
 }
@@ -260,18 +317,17 @@ mod tests {
     fn every_block_type_is_described() {
         let registry = Registry::builtin();
         for spec in registry.blocks() {
-            let family = registry.family_of(spec.about.id).unwrap();
-            let description = BlockDescription::of(spec, family);
+            let description = BlockDescription::of(&registry, spec);
             assert_eq!(description.parameters.len(), spec.params.len());
             assert!(description.parameters.iter().all(|parameter| !parameter.doc.is_empty()));
-            assert!(!description.since.is_empty());
+            assert!(description.since.is_some() && description.plugin.is_none());
         }
     }
 
     #[test]
     fn an_output_names_the_inputs_that_it_follows() {
         let registry = Registry::builtin();
-        let end = BlockDescription::of(registry.find("end").unwrap(), "results");
+        let end = BlockDescription::of(&registry, registry.find("end").unwrap());
         assert_eq!(end.role, "result");
         assert_eq!(end.outputs[0].planes, Some("as inputs"));
         assert_eq!(end.outputs[0].planes_of, ["image"]);

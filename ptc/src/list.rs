@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::{
     description::BlockDescription,
     exit::{Exit, Fault},
+    plugins::PluginOptions,
     terminal::{self, wrap},
 };
 
@@ -22,6 +23,9 @@ pub(crate) struct ListArguments {
     /// --json` prints it
     #[arg(long)]
     json: bool,
+
+    #[command(flatten)]
+    plugins: PluginOptions,
 }
 
 #[derive(Serialize)]
@@ -31,7 +35,8 @@ struct Catalogue {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &ListArguments) -> Result<Exit, Fault> {
-    let mut blocks = described(&Registry::builtin());
+    let engine = arguments.plugins.engine_for_types()?;
+    let mut blocks = described(engine.registry());
     if let Some(family) = &arguments.family {
         let families = families(&blocks);
         blocks.retain(|block| block.family == family);
@@ -51,34 +56,39 @@ pub(crate) fn run(arguments: &ListArguments) -> Result<Exit, Fault> {
 
 fn described(registry: &Registry) -> Vec<BlockDescription> {
     let blocks = registry.blocks().into_iter();
-    let described = blocks.map(|spec| {
-        let family = registry.family_of(spec.about.id).unwrap_or_default();
-        BlockDescription::of(spec, family)
-    });
-    described.collect()
+    blocks.map(|spec| BlockDescription::of(registry, spec)).collect()
 }
 
 fn families(blocks: &[BlockDescription]) -> String {
-    let mut families: Vec<_> = blocks.iter().map(|block| block.family).collect();
-    families.dedup();
+    let mut families = vec![];
+    for block in blocks {
+        if !families.contains(&block.family) {
+            families.push(block.family);
+        }
+    }
     families.join(", ")
 }
 
-/// Prints one heading a family, and below it one line a block type, or more if the summary is
+/// Prints one heading a family of each plug-in, and below it one line a block type, or more if the summary is
 /// long.
 fn print(out: &mut impl Write, blocks: &[BlockDescription], columns: usize) -> io::Result<()> {
     let heading = terminal::heading();
     let widest = blocks.iter().map(|block| block.id.chars().count()).max().unwrap_or_default();
     let indent = widest + 4;
-    let mut family = "";
+    let mut before: Option<&BlockDescription> = None;
     for block in blocks {
-        if block.family != family {
-            if !family.is_empty() {
+        let family = block.family;
+        if before.is_none_or(|before| before.family != family || before.plugin != block.plugin) {
+            if before.is_some() {
                 writeln!(out)?;
             }
-            family = block.family;
-            writeln!(out, "{heading}{family}{heading:#}")?;
+            write!(out, "{heading}{family}{heading:#}")?;
+            match &block.plugin {
+                Some(plugin) => writeln!(out, " (plug-in {} {})", plugin.id, plugin.version)?,
+                None => writeln!(out)?,
+            }
         }
+        before = Some(block);
         let lines = wrap(block.summary, columns.saturating_sub(indent));
         let summary = lines.join(&format!("\n{:indent$}", ""));
         writeln!(out, "  {:widest$}  {summary}", block.id)?;

@@ -1,10 +1,10 @@
 //! `ptc`: the command of ptlib. It renders graphs into pictures, checks graph files, and shows
 //! what blocks there are.
 //!
-//! One file a subcommand: [`render`], [`list`], [`describe`], [`check`],
-//! [`check_plugin`]. What they share: [`exit`]
-//! (how the command ends), [`terminal`] (what people see), [`description`] (a block in words, for
-//! people and as JSON), [`finding`] (a fault of a graph file). Everything else is the library.
+//! One file a subcommand: [`render`], [`list`], [`describe`], [`check`], [`plugins`],
+//! [`check_plugin`]. What they share: [`exit`] (how the command ends), [`terminal`] (what people
+//! see), [`description`] (a block in words, for people and as JSON), [`finding`] (a fault of a
+//! graph file), [`plugins::PluginOptions`] (which plug-ins are loaded). Everything else is the library.
 
 mod check;
 mod check_plugin;
@@ -17,6 +17,7 @@ mod interrupt;
 mod list;
 mod output;
 mod pattern;
+mod plugins;
 mod progress;
 mod quantity;
 mod render;
@@ -47,6 +48,7 @@ fn run(command: &Command) -> Result<Exit, Fault> {
         Command::List(arguments) => list::run(arguments),
         Command::Describe(arguments) => describe::run(arguments),
         Command::Check(arguments) => check::run(arguments),
+        Command::Plugins(arguments) => plugins::run(arguments),
         Command::CheckPlugin(arguments) => check_plugin::run(arguments),
     }
 }

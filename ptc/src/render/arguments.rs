@@ -7,6 +7,7 @@ use ptlib::{Cancel, ComputeOptions, EngineOptions, Graph, Precision, io::BitDept
 
 use crate::{
     pattern::Pattern,
+    plugins::PluginOptions,
     quantity::{Bytes, Size},
 };
 
@@ -98,6 +99,9 @@ pub(crate) struct RenderArguments {
     /// Show how long each graph took
     #[arg(long, conflicts_with = "quiet")]
     pub(super) timing: bool,
+
+    #[command(flatten)]
+    pub(super) plugins: PluginOptions,
 }
 
 /// An input of the graph by name, and the file that its value comes from.

@@ -65,7 +65,7 @@ pub unsafe extern "C" fn ptl_engine_scan_plugins(
     pt_fn!(error; engine: Handle<ptl_engine>, folders: Option<&str> => {
         let folders: Vec<PathBuf> = match folders {
             Some(folders) => env::split_paths(folders).collect(),
-            None => search_folders(),
+            None => search_folders().into_iter().map(|folder| folder.path).collect(),
         };
         let mut is_ended = false;
         engine.engine.scan_plugins(&folders, &mut |scanned| {

@@ -33,4 +33,4 @@ mod setup;
 pub(crate) mod view;
 mod wires;
 
-pub use search::{Scanned, search_folders};
+pub use search::{FolderOrigin, Scanned, SearchFolder, search_folders};

@@ -25,14 +25,38 @@ pub struct Scanned {
     pub outcome: Result<&'static PluginInfo, Error>,
 }
 
-/// The folders that are usually searched, those first that win: `PTLIB_PLUGIN_PATH`, that of the
-/// user, that of the system. They need not exist.
+/// A folder to look for plug-ins in. It need not exist.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SearchFolder {
+    /// The folder.
+    pub path: PathBuf,
+    /// Why it is searched.
+    pub origin: FolderOrigin,
+}
+
+/// Why a folder is searched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FolderOrigin {
+    /// The variable `PTLIB_PLUGIN_PATH` names it.
+    Variable,
+    /// It is that of the user.
+    User,
+    /// It is that of the system.
+    System,
+}
+
+/// The folders that are usually searched, those first that win: those of the variable
+/// `PTLIB_PLUGIN_PATH` (separated as in `PATH`, empty ones left out), that of the user, those of
+/// the system.
 #[must_use]
-pub fn search_folders() -> Vec<PathBuf> {
+pub fn search_folders() -> Vec<SearchFolder> {
     let named = env::var_os(VARIABLE);
     let named = named.iter().flat_map(|names| env::split_paths(names).collect::<Vec<_>>());
     let named = named.filter(|folder| !folder.as_os_str().is_empty());
-    named.chain(user_folder()).chain(system_folders()).collect()
+    let as_of = |origin| move |path| SearchFolder { path, origin };
+    let user = user_folder().into_iter().map(as_of(FolderOrigin::User));
+    let system = system_folders().into_iter().map(as_of(FolderOrigin::System));
+    named.map(as_of(FolderOrigin::Variable)).chain(user).chain(system).collect()
 }
 
 /// The folder below that of a variable.
