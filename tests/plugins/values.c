@@ -130,8 +130,10 @@ static ptlp_status PTLP_CALL wrong(
     if (fault == 0)
         return PTLP_OK; /* makes nothing */
     borrowed.data = nowhere;
-    if (fault == 1)
+    if (fault == 1 || fault == 9)
         wanted[0] = &borrowed; /* memory that is not the host's */
+    if (fault == 9)
+        borrowed.stride = 3;
     if (fault == 2)
         mesh.struct_size = 8;
     if (fault == 3)
@@ -184,9 +186,9 @@ static const ptlp_port *const strands_ports[] = {&strands_port, &points_port};
 
 static const char *const fault_ids[] = {
     "nothing", "foreign memory", "struct size", "counts", "output", "index", "number",
-    "unfinished", "kind"};
+    "unfinished", "kind", "stride"};
 static const ptlp_param fault_param = {
-    sizeof(ptlp_param), PTLP_PARAM_CHOICE, 0, 9, 0, 0, 0, 0, 0,
+    sizeof(ptlp_param), PTLP_PARAM_CHOICE, 0, 10, 0, 0, 0, 0, 0,
     "fault", "What is wrong.", NULL, NULL, fault_ids, NULL};
 static const ptlp_param *const fault_params[] = {&fault_param};
 

@@ -16,6 +16,8 @@ mod plugin_abi;
 #[cfg(target_os = "linux")]
 mod plugin_faults;
 #[cfg(target_os = "linux")]
+mod plugin_hexagons;
+#[cfg(target_os = "linux")]
 mod plugin_values;
 #[cfg(target_os = "linux")]
 mod plugins;

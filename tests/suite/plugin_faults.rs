@@ -1,11 +1,16 @@
 //! Plug-ins that are refused, each with a status of its own and a message that says why. The host
 //! lives.
 
-use std::{fs, os::unix::fs::symlink, path::Path};
+use std::{
+    fs,
+    os::unix::fs::{PermissionsExt as _, symlink},
+    path::Path,
+    sync::{Arc, Mutex},
+};
 
-use ptlib::{Engine, EngineOptions, Error, ErrorKind};
+use ptlib::{Engine, EngineOptions, Error, ErrorKind, run::LogLevel};
 
-use crate::plugins::{build, build_with, folder, rust_plugin};
+use crate::plugins::{build, build_with, folder, rust_library, rust_plugin};
 
 fn refusal(path: &Path) -> Error {
     let engine = Engine::new(EngineOptions::default());
@@ -119,6 +124,49 @@ fn files_that_are_no_plugins_are_refused() {
     let error = refusal(&unresolved);
     assert_eq!(error.kind(), ErrorKind::PluginLoad, "{error}");
     assert!(error.to_string().contains("nobody_has_this"), "{error}");
+}
+
+/// As after an update of one of both sides. The long comparison is for the log.
+#[test]
+fn a_root_module_of_another_layout_is_refused() {
+    // Cargo builds it only if it is used.
+    let _ = std::mem::size_of::<ptlib_test_layout::PluginRoot>();
+    let library = rust_library("libptlib_test_layout.so", "layout");
+    let engine = Engine::new(EngineOptions::default());
+    let said = Arc::new(Mutex::new(Vec::<String>::new()));
+    let heard = Arc::clone(&said);
+    let log = move |_, message: &str| heard.lock().unwrap().push(message.to_owned());
+    engine.set_log(Some((LogLevel::Debug, Arc::new(log))));
+    let error = engine.load_plugin(&library).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::PluginLayout, "{error}");
+    assert!(error.message().contains("layout.ptplugin.so: its tables are laid out"), "{error}");
+    assert_eq!(error.to_string().lines().count(), 1, "{error}");
+    assert!(error.hint().is_some_and(|hint| hint.contains("build it again")), "{error}");
+    let details = said.lock().unwrap().join("\n");
+    assert!(details.contains("entry") && details.lines().count() > 3, "{details}");
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_refused() {
+    let Some(plugin) = build("points") else { return };
+    let folder = folder().join("unreadable");
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    // Reading the first page of a process's memory fails, whoever does it.
+    let memory = folder.join("memory.ptplugin.so");
+    symlink("/proc/self/mem", &memory).unwrap();
+    let error = refusal(&memory);
+    assert_eq!(error.kind(), ErrorKind::PluginLoad, "{error}");
+    assert!(error.to_string().contains("cannot be loaded"), "{error}");
+    // This one only those may read who may read everything.
+    let secret = folder.join("secret.ptplugin.so");
+    fs::copy(&plugin, &secret).unwrap();
+    fs::set_permissions(&secret, fs::Permissions::from_mode(0o000)).unwrap();
+    if fs::File::open(&secret).is_err() {
+        let error = refusal(&secret);
+        assert_eq!(error.kind(), ErrorKind::PluginLoad, "{error}");
+        assert!(error.to_string().contains("Permission denied"), "{error}");
+    }
 }
 
 #[test]

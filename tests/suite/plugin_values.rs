@@ -78,6 +78,7 @@ fn what_a_block_makes_wrongly_is_refused() {
         (ErrorKind::OutOfRange, "position"),
         (ErrorKind::PluginFailed, "did not finish"),
         (ErrorKind::TypeMismatch, "gives a mesh, not a text"),
+        (ErrorKind::InvalidArgument, "of no stream of an input"),
     ];
     for (fault, (kind, said)) in (0..).zip(cases) {
         let error = wrong(&engine, fault);

@@ -5,10 +5,13 @@ use std::{
     env, fs,
     path::{Path, PathBuf},
     process::Command,
-    sync::{Mutex, PoisonError},
+    sync::{Arc, Mutex, PoisonError},
 };
 
-use ptlib::{ComputeOptions, Engine, EngineOptions, Error, ErrorKind, Image, params::ParamValue};
+use ptlib::{
+    Cancel, ComputeOptions, Engine, EngineOptions, Error, ErrorKind, Image, params::ParamValue,
+    run::LogLevel,
+};
 
 use crate::abi::{root, run, scratch, tool};
 
@@ -52,10 +55,15 @@ pub(crate) fn build_with(source: &str, name: &str, flags: &[&str]) -> Option<Pat
 
 /// The plug-in in Rust, which cargo built with these tests, under the name of a plug-in.
 pub(crate) fn rust_plugin() -> PathBuf {
+    rust_library("libptlib_test_plugin.so", "rust")
+}
+
+/// A library that cargo built with these tests, under the name of a plug-in.
+pub(crate) fn rust_library(library: &str, name: &str) -> PathBuf {
     let _one = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
-    let plugin = folder().join("rust.ptplugin.so");
+    let plugin = folder().join(format!("{name}.ptplugin.so"));
     let own = env::current_exe().unwrap();
-    let library = own.parent().unwrap().join("libptlib_test_plugin.so");
+    let library = own.parent().unwrap().join(library);
     let is_new = fs::read(&plugin).ok() != Some(fs::read(&library).unwrap());
     if is_new {
         let _ = fs::remove_file(&plugin);
@@ -175,6 +183,31 @@ fn failures_and_panics_become_errors_with_the_name_of_the_block() {
         assert_eq!((image.row(0, 0)[0], image.row(0, 255)[255]), (1.0, 1.0));
         assert_eq!(failures.len(), 1);
     }
+}
+
+#[test]
+fn a_block_that_does_not_hear_that_it_should_stop_is_reported() {
+    let Some(plugin) = build("deaf") else { return };
+    let engine = engine(&plugin);
+    let (cancel, said) = (Cancel::new(), Arc::new(Mutex::new(Vec::<String>::new())));
+    let (heard, stop) = (Arc::clone(&said), cancel.clone());
+    let log = move |_, message: &str| {
+        if message.contains("started") {
+            stop.request();
+        }
+        heard.lock().unwrap().push(message.to_owned());
+    };
+    engine.set_log(Some((LogLevel::Info, Arc::new(log))));
+    let mut graph = engine.new_graph();
+    let deaf = graph.add("ptlib-test.deaf").unwrap();
+    let compute = |cancel| {
+        let options = ComputeOptions { cancel: Some(cancel), ..ComputeOptions::default() };
+        engine.compute(&graph, deaf, 0, options)
+    };
+    assert_eq!(compute(cancel).unwrap_err().kind(), ErrorKind::Cancelled);
+    let said = said.lock().unwrap();
+    let report = said.iter().find(|message| message.contains("never heard that it should stop"));
+    assert!(report.is_some_and(|report| report.contains("ptlib-test.deaf")), "{said:?}");
 }
 
 #[test]

@@ -4,7 +4,11 @@ use std::{
     alloc::{Layout, alloc_zeroed, dealloc},
     ffi::{CStr, c_char, c_void},
     ptr,
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::{Duration, Instant},
 };
 
 use ptlib_plugin_abi::*;
@@ -16,6 +20,9 @@ use crate::{
     limits::Limits,
     math::convert::count,
 };
+
+/// A call that takes longer and does not hear that it should stop is reported.
+const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Memory for plug-ins starts at multiples of this many bytes.
 const ALIGNMENT: usize = 64;
@@ -49,6 +56,8 @@ pub(super) struct Call<'a> {
     pub(super) means: Means<'a>,
     /// The first thing that it said went wrong.
     fault: Mutex<Option<Error>>,
+    /// Whether it asked whether to stop, after that was wanted.
+    has_heard: AtomicBool,
     scratch: Mutex<Scratch>,
     /// The files that it read.
     read: Mutex<Vec<Arc<[u8]>>>,
@@ -74,6 +83,7 @@ impl<'a> Call<'a> {
         Self {
             means,
             fault: Mutex::new(None),
+            has_heard: AtomicBool::new(false),
             scratch: Mutex::new(Scratch { pieces: Vec::new(), bytes: 0 }),
             read: Mutex::new(Vec::new()),
         }
@@ -98,8 +108,29 @@ impl<'a> Call<'a> {
             set_error: Some(set_error),
             warn: Some(warn),
         };
+        // Rows are short, and the time of each would cost some.
+        let started = self.means.files.map(|_| Instant::now());
         let status = function(&raw const job);
+        if let Some(started) = started {
+            self.report_deaf(what, started);
+        }
         if status == PTLP_OK { Ok(()) } else { Err(self.error(what, status)) }
+    }
+
+    /// Reports a function that went on for long though nobody looks at the result any more, and
+    /// never heard of that: whoever cancels waits for it.
+    fn report_deaf(&self, what: &str, started: Instant) {
+        let took = started.elapsed();
+        let has_heard = self.has_heard.load(Ordering::Relaxed);
+        if took <= PATIENCE || has_heard || self.means.progress.check().is_ok() {
+            return;
+        }
+        let took = took.as_millis();
+        let message = format!(
+            "`{what}` of the plug-in ran for {took} ms and never heard that it should stop: it \
+             has to ask `is_cancelled` every millisecond"
+        );
+        (self.means.tell)(LogLevel::Warning, Error::new(ErrorKind::PluginFailed, message));
     }
 
     /// The error of a status.
@@ -243,7 +274,12 @@ const MAX_SAID: usize = 2000;
 unsafe extern "C" fn is_cancelled(job: *const ptlp_job) -> i32 {
     // SAFETY: the contract.
     let call = unsafe { call_of(job) };
-    guarded(1, || i32::from(call.is_none_or(|call| call.means.progress.check().is_err())))
+    let is_cancelled = |call: &Call<'_>| {
+        let is_cancelled = call.means.progress.check().is_err();
+        call.has_heard.fetch_or(is_cancelled, Ordering::Relaxed);
+        is_cancelled
+    };
+    guarded(1, || i32::from(call.is_none_or(is_cancelled)))
 }
 
 unsafe extern "C" fn report(job: *const ptlp_job, fraction: f64) {
