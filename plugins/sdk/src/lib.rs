@@ -59,6 +59,9 @@
 //! Build it as a `cdylib`, and name the library so that it ends with `.ptplugin.so` (`.dll`,
 //! `.dylib`). A panic in a block becomes an error of the computation, with the block's name.
 //!
+//! Blocks of shape Whole may also take and give meshes, points, strands ([`Call::new_points`]),
+//! colour transitions and texts; [`stream`] has the ids of what belongs to each vertex or point.
+//!
 //! Results may depend on parameters, seed, size, precision and inputs only, and must be the same on
 //! every platform: take transcendental functions from [`math`], random numbers from [`noise`], and
 //! no time, no order of a hash map, no fused multiply-add.
