@@ -1,7 +1,9 @@
 //! How octaves become a picture. An octave is a noise of -1..1; each has more cells than the one
 //! before, and counts less.
 
-use ptlib_plugin::{choice, math, params};
+use ptlib_plugin::{BlockError, Call, Setup, choice, math, noise, params};
+
+use crate::lattice::Gradients;
 
 choice! {
     /// How octaves are added up.
@@ -68,6 +70,105 @@ pub(crate) fn octaves(params: &Params, size: [u32; 2], step: u32) -> Vec<Octave>
     let total: f32 = octaves.iter().map(|octave| octave.weight).sum();
     octaves.iter_mut().for_each(|octave| octave.weight /= total);
     octaves
+}
+
+/// Parts of a cell that octaves are shifted by whole numbers of.
+const SHIFTS: u32 = 16;
+
+/// An octave, its gradients, and how far it is shifted.
+#[derive(Debug)]
+pub(crate) struct Layer {
+    pub(crate) octave: Octave,
+    pub(crate) gradients: Gradients,
+    /// Sixteenths of a cell. Without it all octaves would be 0 at the corners of the coarsest one.
+    shift: [u32; 2],
+}
+
+/// A part of a row in an octave.
+pub(crate) struct Segment<'a> {
+    pub(crate) layer: &'a Layer,
+    at: [u32; 2],
+    size: [u32; 2],
+}
+
+/// Where the middle of a pixel lies in cells: in whole numbers, so that it is exact.
+pub(crate) struct Place {
+    /// The cell.
+    pub(crate) cell: u32,
+    /// How many parts of the cell lie before it.
+    pub(crate) part: u32,
+    /// Parts from pixel to pixel.
+    pub(crate) step: u32,
+    /// Parts of a cell: an even number.
+    pub(crate) unit: u32,
+}
+
+impl Place {
+    fn of(pixel: u32, pixels: u32, cells: u32, shift: u32) -> Self {
+        let (step, unit) = (2 * SHIFTS * cells, 2 * SHIFTS * pixels);
+        let parts =
+            (2 * u64::from(pixel) + 1) * u64::from(step / 2) + u64::from(shift * 2 * pixels);
+        let (cell, part) = (parts / u64::from(unit), parts % u64::from(unit));
+        let small = |number| u32::try_from(number).unwrap_or(u32::MAX);
+        Self { cell: small(cell), part: small(part), step, unit }
+    }
+
+    /// The part of the cell before it, 0..1.
+    pub(crate) fn within(&self) -> f32 {
+        self.part as f32 / self.unit as f32
+    }
+}
+
+impl Segment<'_> {
+    /// Where the first pixel lies along the width and the height.
+    pub(crate) fn places(&self) -> [Place; 2] {
+        let cells = self.layer.octave.cells;
+        [0, 1].map(|axis| {
+            Place::of(self.at[axis], self.size[axis], cells[axis], self.layer.shift[axis])
+        })
+    }
+}
+
+/// Octaves that are added up: what both blocks prepare.
+#[derive(Debug)]
+pub(crate) struct Sum {
+    fractal: Fractal,
+    layers: Vec<Layer>,
+}
+
+impl Sum {
+    /// Of a lattice whose rows wrap around after a multiple of `step`.
+    pub(crate) fn new(params: &Params, setup: &Setup<'_>, step: u32) -> Self {
+        let octaves = octaves(params, [setup.width(), setup.height()], step).into_iter();
+        let layer = |octave: Octave| Layer {
+            octave,
+            gradients: Gradients::new(setup.seed(), octave.number),
+            shift: [1, 2].map(|axis| noise::hash(setup.seed(), octave.number, axis, 0) % SHIFTS),
+        };
+        Self { fractal: params.fractal, layers: octaves.map(layer).collect() }
+    }
+
+    /// Writes the output, row by row; `write_row` writes an octave, -1..1.
+    pub(crate) fn write(
+        &self,
+        call: &mut Call<'_>,
+        write_row: impl Fn(&Segment<'_>, &mut [f32]),
+    ) -> Result<(), BlockError> {
+        let mut out = call.output(0)?;
+        let mut noise = vec![0.0; out.width() as usize];
+        let size = [out.image_width(), out.image_height()];
+        let (x, y) = (out.x(), out.y());
+        for row in 0..out.height() {
+            let target = out.row_mut(0, row);
+            target.fill(0.0);
+            for layer in &self.layers {
+                write_row(&Segment { layer, at: [x, y + row], size }, &mut noise);
+                self.fractal.add(target, &noise, layer.octave.weight);
+            }
+            self.fractal.finish(target);
+        }
+        Ok(())
+    }
 }
 
 impl Fractal {

@@ -5,13 +5,14 @@
 //! 6t⁵ - 15t⁴ + 10t³. Corners wrap around, so the noise tiles.
 //!
 //! In a row of pixels, what a column of corners gives is a line in x: its slope and its height are
-//! interpolated along y once a row. A pixel then costs two lines and one interpolation.
+//! interpolated along y once a row. A row is written cell by cell: the pixels of a cell have the
+//! same two lines, so they are computed side by side.
 
 use ptlib_plugin::prelude::*;
 
 use crate::{
-    fractal::{Octave, Params, octaves},
-    lattice::Gradients,
+    fractal::{Params, Segment, Sum},
+    lattice::GradientRow,
 };
 
 /// The noise of one octave lies within ±√½; by this it fills ±1.
@@ -19,10 +20,7 @@ const SCALE: f32 = std::f32::consts::SQRT_2;
 
 /// Perlin's gradient noise, prepared.
 #[derive(Debug)]
-pub struct Perlin {
-    params: Params,
-    octaves: Vec<(Octave, Gradients)>,
-}
+pub struct Perlin(Sum);
 
 impl Block for Perlin {
     type Params = Params;
@@ -38,29 +36,11 @@ impl Block for Perlin {
     };
 
     fn prepare(params: &Params, setup: &Setup<'_>) -> Result<Self, BlockError> {
-        let octaves = octaves(params, [setup.width(), setup.height()], 1).into_iter();
-        let with_gradients = |octave: Octave| {
-            let gradients = Gradients::new(setup.seed(), octave.number);
-            (octave, gradients)
-        };
-        Ok(Self { params: params.clone(), octaves: octaves.map(with_gradients).collect() })
+        Ok(Self(Sum::new(params, setup, 1)))
     }
 
     fn compute(&self, call: &mut Call<'_>) -> Result<(), BlockError> {
-        let mut out = call.output(0)?;
-        let mut noise = vec![0.0; out.width() as usize];
-        let size = [out.image_width(), out.image_height()];
-        let (x, y) = (out.x(), out.y());
-        for row in 0..out.height() {
-            let target = out.row_mut(0, row);
-            target.fill(0.0);
-            for (octave, gradients) in &self.octaves {
-                write_row(octave, gradients, [x, y + row], size, &mut noise);
-                self.params.fractal.add(target, &noise, octave.weight);
-            }
-            self.params.fractal.finish(target);
-        }
-        Ok(())
+        self.0.write(call, write_row)
     }
 }
 
@@ -72,48 +52,53 @@ struct Line {
 }
 
 /// Writes an octave, -1..1, from a pixel on.
-fn write_row(
-    octave: &Octave,
-    gradients: &Gradients,
-    at: [u32; 2],
-    size: [u32; 2],
-    row: &mut [f32],
-) {
-    let [across, down] = octave.cells;
-    let (cell_y, t) = place(at[1], size[1], down);
-    let fade_y = fade(t);
-    let line = |column: u32| {
-        let column = column % across;
-        let [above, below] =
-            [cell_y, (cell_y + 1) % down].map(|corner| gradients.at(column, corner));
-        Line {
-            slope: mix(above[0], below[0], fade_y),
-            height: mix(above[1] * t, below[1] * (t - 1.0), fade_y),
-        }
-    };
-    let mut column = place(at[0], size[0], across).0;
+fn write_row(segment: &Segment<'_>, mut row: &mut [f32]) {
+    let [across, down] = segment.layer.octave.cells;
+    let [x, y] = segment.places();
+    let rows = [y.cell % down, (y.cell + 1) % down].map(|row| segment.layer.gradients.row(row));
+    let within = y.within();
+    let faded = fade(within);
+    let line = |column: u32| Line::of(rows, column % across, within, faded);
+    let (mut column, mut part) = (x.cell, x.part);
     let mut lines = [line(column), line(column + 1)];
-    for (x, value) in (at[0]..).zip(row) {
-        let (cell, t) = place(x, size[0], across);
-        if cell != column {
-            lines = [if cell == column + 1 { lines[1] } else { line(cell) }, line(cell + 1)];
-            column = cell;
-        }
-        let [left, right] = lines;
-        let left = left.slope * t + left.height;
-        let right = right.slope * (t - 1.0) + right.height;
-        *value = mix(left, right, fade(t)) * SCALE;
+    while !row.is_empty() {
+        // Pixels until the next column of corners.
+        let here = ((x.unit - part).div_ceil(x.step) as usize).min(row.len());
+        let (pixels, others) = row.split_at_mut(here);
+        write_cell(lines, [part, x.step, x.unit], pixels);
+        row = others;
+        part += x.step * u32::try_from(here).unwrap_or(u32::MAX);
+        let cells = part / x.unit;
+        part -= cells * x.unit;
+        column += cells;
+        lines = [if cells == 1 { lines[1] } else { line(column) }, line(column + 1)];
     }
 }
 
-/// The cell that the middle of a pixel lies in, and where in it, 0..1.
+impl Line {
+    #[inline(always)]
+    fn of(rows: [GradientRow<'_>; 2], column: u32, t: f32, faded: f32) -> Self {
+        let [above, below] = rows.map(|row| row.at(column));
+        Self {
+            slope: mix(above[0], below[0], faded),
+            height: mix(above[1] * t, below[1] * (t - 1.0), faded),
+        }
+    }
+}
+
+/// Writes the pixels of a cell. The first lies `part` of `unit` parts to the right of the left
+/// corners, each other one `step` parts further.
 #[inline(always)]
-fn place(pixel: u32, pixels: u32, cells: u32) -> (u32, f32) {
-    // In whole numbers, so that it is exact: twice the pixel's middle, in cells.
-    let (twice, unit) = ((2 * u64::from(pixel) + 1) * u64::from(cells), 2 * u64::from(pixels));
-    let cell = twice / unit;
-    let within = (twice - cell * unit) as f32 / unit as f32;
-    (u32::try_from(cell).unwrap_or(u32::MAX), within)
+fn write_cell([left, right]: [Line; 2], [part, step, unit]: [u32; 3], pixels: &mut [f32]) {
+    // Signed numbers are faster to turn into floats.
+    let [part, step, unit] = [part, step, unit].map(u32::cast_signed);
+    let unit = unit as f32;
+    for (pixel, number) in pixels.iter_mut().zip(0_i32..) {
+        let t = (part + number * step) as f32 / unit;
+        let from_left = left.slope * t + left.height;
+        let from_right = right.slope * (t - 1.0) + right.height;
+        *pixel = mix(from_left, from_right, fade(t)) * SCALE;
+    }
 }
 
 #[inline(always)]

@@ -1,5 +1,7 @@
 //! Both noises through the engine: they tile, fill their range, and look alike at every size.
 
+use std::{fs, path::Path};
+
 use ptlib::{ComputeOptions, Engine, EngineOptions, Image, params::ParamValue};
 
 const BLOCKS: [&str; 2] = ["gradient-noise.perlin", "gradient-noise.simplex"];
@@ -99,5 +101,24 @@ fn another_seed_gives_another_picture_and_octaves_differ() {
             image(block, (64, 64), &same, 1).channel(0),
             image(block, (64, 64), &one, 1).channel(0)
         );
+    }
+}
+
+#[test]
+fn examples_are_read_without_a_warning_and_give_pictures() {
+    let engine = engine();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let mut files: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    assert!(!files.is_empty());
+    for file in files {
+        let reading = engine.read_graph(&fs::read(&file).unwrap()).unwrap();
+        assert!(reading.warnings.is_empty(), "{}: {:?}", file.display(), reading.warnings);
+        let result = reading.graph.main_result().unwrap();
+        let options = ComputeOptions { size: Some((48, 32)), ..Default::default() };
+        let image = engine.compute(&reading.graph, result, 0, options).unwrap();
+        let first = image.channel(0)[0];
+        assert!(image.channel(0).iter().any(|value| *value != first), "{}", file.display());
     }
 }

@@ -9,36 +9,42 @@ use ptlib_plugin::{Image, Work, prelude::*};
 use crate::grid::{Grid, Rate};
 
 choice! {
-    /// Rates that make well-known patterns (Pearson's classes).
+    /// Rates whose patterns last. ([`GrayScott`] says where they come from.)
     Preset {
         /// The parameters "feed" and "kill".
         Own = "own",
         /// Branches that grow until they fill everything.
         Coral = "coral",
-        /// Spots that divide.
+        /// Spots that divide until they fill everything.
         Spots = "spots",
         /// A maze.
         Maze = "maze",
         /// Holes in a plane.
         Holes = "holes",
-        /// Waves that never come to rest.
-        Waves = "waves",
-        /// Worms that end, and spots.
+        /// Rings and bows that grow, break and never come to rest.
+        Loops = "loops",
+        /// Worms that end, and spots between them.
         Worms = "worms",
     }
 }
 
 impl Preset {
     /// Feed and kill.
+    ///
+    /// Places in the crescent that Pearson found and R. Munafo mapped in steps of 0.004 and 0.002
+    /// ("Reaction-Diffusion by the Gray-Scott Model: Pearson's Parametrization"), chosen so that
+    /// drops fill the plane within the default steps, and the pattern is still there after five
+    /// times as many. Travelling waves (Munafo's class ξ, such as 0.014 and 0.047) are none of
+    /// them: waves that meet destroy each other, until nothing is left.
     fn rates(self, own: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Own => own,
             Self::Coral => [0.0545, 0.062],
-            Self::Spots => [0.0367, 0.0649],
+            Self::Spots => [0.03, 0.062],
             Self::Maze => [0.029, 0.057],
             Self::Holes => [0.039, 0.058],
-            Self::Waves => [0.014, 0.045],
-            Self::Worms => [0.058, 0.065],
+            Self::Loops => [0.018, 0.051],
+            Self::Worms => [0.034, 0.0618],
         }
     }
 }
@@ -73,7 +79,8 @@ const REPORT: i32 = 32;
 /// What the second substance is multiplied by to fill 0..1: it rarely exceeds 0.4.
 const SCALE: f32 = 2.5;
 
-/// Gray and Scott's reaction, prepared.
+/// Gray and Scott's reaction, prepared. Its presets are places in the map of J. E. Pearson ("Complex
+/// Patterns in a Simple System", Science 261, 1993) and R. Munafo.
 #[derive(Debug)]
 pub struct GrayScott {
     params: Params,

@@ -15,6 +15,10 @@ use ptlib_plugin::{BlockError, Work};
 /// How fast each substance spreads.
 const SPREAD: [f32; 2] = [1.0, 0.5];
 
+/// So little of the second substance is none. What decays never reaches 0 by itself, and processors
+/// are slow with the numbers just above.
+const NOTHING: f32 = 1e-20;
+
 /// Rows that one task computes at least, so that starting tasks costs little.
 const CELLS_OF_A_TASK: usize = 8192;
 
@@ -132,7 +136,8 @@ fn react(
         let (feed, kill) = (feed(x), kill(x));
         let reaction = u * v * v;
         to_u[x] = u + SPREAD[0] * du - reaction + feed * (1.0 - u);
-        to_v[x] = v + SPREAD[1] * dv + reaction - (feed + kill) * v;
+        let next = v + SPREAD[1] * dv + reaction - (feed + kill) * v;
+        to_v[x] = if next > NOTHING { next } else { 0.0 };
     };
     cell(0, width - 1, 1 % width);
     for x in 1..width.saturating_sub(1) {

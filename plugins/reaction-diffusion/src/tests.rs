@@ -1,5 +1,7 @@
 //! The block through the engine.
 
+use std::{fs, path::Path};
+
 use ptlib::{
     Cancel, ComputeOptions, Engine, EngineOptions, Error, ErrorKind, Image, params::ParamValue,
 };
@@ -93,4 +95,72 @@ fn a_long_computation_can_be_stopped() {
     let options = ComputeOptions { cancel: Some(cancel), ..sized((64, 64)) };
     let error = pattern(&[("steps", ParamValue::Int(100_000))], options).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Cancelled);
+}
+
+/// How much of a picture is darker than a third, and brighter than two thirds of what is brightest.
+fn shares(image: &Image) -> [f32; 2] {
+    let values = image.channel(0);
+    let most = values.iter().fold(0.0_f32, |most, value| most.max(*value));
+    assert!(most > 0.5, "it is black");
+    let share = |is: &dyn Fn(f32) -> bool| {
+        values.iter().filter(|value| is(**value / most)).count() as f32 / values.len() as f32
+    };
+    [share(&|value| value < 0.33), share(&|value| value > 0.67)]
+}
+
+#[test]
+fn every_preset_gives_a_pattern_that_lasts() {
+    // Coral, spots, maze, holes, loops, worms: the least and the most that is dark, and bright.
+    let expected = [
+        [0.25..0.65, 0.2..0.6],
+        [0.4..0.85, 0.05..0.35],
+        [0.15..0.6, 0.15..0.6],
+        [0.02..0.25, 0.5..0.95],
+        [0.25..0.95, 0.02..0.5],
+        [0.3..0.75, 0.1..0.5],
+    ];
+    for (preset, [dark, bright]) in (1..).zip(expected) {
+        for steps in [4000, 12_000] {
+            let params = [
+                ("preset", ParamValue::Choice(preset)),
+                ("cells", ParamValue::Int(96)),
+                ("drops", ParamValue::Int(12)),
+                ("steps", ParamValue::Int(steps)),
+            ];
+            let shares = shares(&pattern(&params, sized((96, 96))).unwrap());
+            let is_right = dark.contains(&shares[0]) && bright.contains(&shares[1]);
+            assert!(is_right, "preset {preset} after {steps} steps: {shares:?}");
+        }
+    }
+}
+
+#[test]
+fn what_dies_out_ends_at_0_and_not_slowly() {
+    let params = [
+        ("preset", ParamValue::Choice(0)),
+        ("feed", ParamValue::Float(0.014)),
+        ("kill", ParamValue::Float(0.07)),
+        ("steps", ParamValue::Int(3000)),
+    ];
+    let image = pattern(&params, sized((64, 64))).unwrap();
+    assert!(image.channel(0).iter().all(|value| *value == 0.0));
+}
+
+#[test]
+fn examples_are_read_without_a_warning_and_give_pictures() {
+    let engine = engine();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let mut files: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    assert!(!files.is_empty());
+    for file in files {
+        let reading = engine.read_graph(&fs::read(&file).unwrap()).unwrap();
+        assert!(reading.warnings.is_empty(), "{}: {:?}", file.display(), reading.warnings);
+        let result = reading.graph.main_result().unwrap();
+        let options = ComputeOptions { size: Some((48, 32)), ..Default::default() };
+        let image = engine.compute(&reading.graph, result, 0, options).unwrap();
+        let first = image.channel(0)[0];
+        assert!(image.channel(0).iter().any(|value| *value != first), "{}", file.display());
+    }
 }

@@ -38,6 +38,16 @@ pub trait Block: Sized + Send + Sync + 'static {
     }
 }
 
+/// An input of graphs: a block type without a computation, whose one output the caller of a graph
+/// sets. It may have one optional input, of the same kind, that stands in for what is not set.
+pub trait GraphInput: 'static {
+    /// The parameters, declared with [`params!`](crate::params!); `()` for none.
+    type Params: ParamSet;
+
+    /// What it is.
+    const ABOUT: About;
+}
+
 /// What one call of [`Block::compute`] writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
@@ -117,6 +127,8 @@ pub struct About {
     pub outputs: &'static [&'static OutputPort],
     /// Whether another seed gives another result.
     pub uses_seed: bool,
+    /// Whether the same inputs and parameters may give something else, so that results are not kept.
+    pub varies: bool,
     /// Why its output need not tile although its inputs do; empty if it always tiles.
     pub tiling_exception: &'static CStr,
     /// Which of its lengths count pixels, so that the picture depends on the resolution.
@@ -136,6 +148,7 @@ impl About {
         inputs: &[],
         outputs: &[],
         uses_seed: false,
+        varies: false,
         tiling_exception: c"",
         in_pixels: c"",
     };

@@ -17,6 +17,8 @@ pub unsafe extern "C" fn init(from: *const ptlp_host, _: *const c_char) -> ptlp_
 
 /// Makes a library a plug-in: its id (the vendor of its blocks' ids, or the vendor, a point and a
 /// word), name, vendor, licence (an SPDX expression) and blocks. The version is that of the crate.
+/// Inputs of graphs ([`GraphInput`](crate::GraphInput)), if there are any, follow the blocks as
+/// `inputs: […]`.
 ///
 /// ```text
 /// export_plugin! {
@@ -34,7 +36,7 @@ macro_rules! export_plugin {
         name: $name:expr,
         vendor: $vendor:expr,
         license: $license:expr,
-        blocks: [$($block:ty),+ $(,)?] $(,)?
+        blocks: [$($block:ty),* $(,)?] $(, inputs: [$($input:ty),* $(,)?])? $(,)?
     ) => {
         /// The plug-in, as the host finds it.
         #[allow(unsafe_code, reason = "the host finds it by this name")]
@@ -43,10 +45,16 @@ macro_rules! export_plugin {
         pub static ptl_plugin_entry_v1: $crate::private::abi::ptlp_entry = {
             use $crate::private::{self, abi};
 
-            const BLOCKS: &[&abi::ptlp_block] = &[$({
-                static BLOCK: abi::ptlp_block = private::table::<$block>();
-                &BLOCK
-            }),+];
+            const BLOCKS: &[&abi::ptlp_block] = &[
+                $({
+                    static BLOCK: abi::ptlp_block = private::table::<$block>();
+                    &BLOCK
+                },)*
+                $($({
+                    static INPUT: abi::ptlp_block = private::graph_input::<$input>();
+                    &INPUT
+                },)*)?
+            ];
             abi::ptlp_entry {
                 struct_size: private::count(size_of::<abi::ptlp_entry>()),
                 abi_major: abi::PTLP_ABI_MAJOR,

@@ -59,6 +59,9 @@
 //! Build it as a `cdylib`, and name the library so that it ends with `.ptplugin.so` (`.dll`,
 //! `.dylib`). A panic in a block becomes an error of the computation, with the block's name.
 //!
+//! Blocks of shape Whole may also take and give meshes, points, strands ([`Call::new_points`]),
+//! colour transitions and texts; [`stream`] has the ids of what belongs to each vertex or point.
+//!
 //! Results may depend on parameters, seed, size, precision and inputs only, and must be the same on
 //! every platform: take transcendental functions from [`math`], random numbers from [`noise`], and
 //! no time, no order of a hash map, no fused multiply-add.
@@ -70,19 +73,37 @@ mod error;
 mod export;
 mod host;
 mod image;
+mod job;
+mod make;
 pub mod math;
 pub mod noise;
 mod params;
+mod parts;
+mod scratch;
+mod setup;
 mod shim;
+pub mod stream;
+mod value;
+mod wire;
+mod work;
 
 pub mod prelude;
 
-pub use block::{About, Block, InputPort, Kind, OutputPort, Planes, Shape, Threads, input, output};
-pub use call::{Call, Setup, Work};
+pub use block::{
+    About, Block, GraphInput, InputPort, Kind, OutputPort, Planes, Shape, Threads, input, output,
+};
+pub use call::Call;
 pub use error::BlockError;
 pub use host::{Level, log};
 pub use image::{Image, ImageMut, Row};
+pub use make::{NewMesh, NewPoints, NewStrands, Piece, StrandPoints, Triangles};
 pub use params::{ParamSet, ParamType};
+pub use parts::{Bits, Constant, Like, Parts, Split};
+pub use scratch::{Plain, Scratch};
+pub use setup::Setup;
+pub use stream::{AnyStream, Element, Stream, StreamId};
+pub use value::{Gradient, GradientStop, Mesh, Points, Strands, Streams};
+pub use work::Work;
 
 /// What the macros use; not for people.
 #[doc(hidden)]
@@ -92,7 +113,7 @@ pub mod private {
     pub use crate::{
         export::init,
         params::{number, value_of},
-        shim::table,
+        shim::{graph_input, table},
     };
 
     /// A count of what is written down in a program: far below 2³².

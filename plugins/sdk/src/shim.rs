@@ -12,7 +12,8 @@ use std::{
 use ptlib_plugin_abi::*;
 
 use crate::{
-    Block, BlockError, Call, ParamSet, Setup, block::optional, call::Job, host, private::count,
+    About, Block, BlockError, Call, GraphInput, ParamSet, Setup, block::optional, host, job::Job,
+    make::Open, private::count,
 };
 
 /// What the host holds as an instance.
@@ -26,16 +27,38 @@ struct Slot<B> {
 /// The table of a block type.
 #[must_use]
 pub const fn table<B: Block>() -> ptlp_block {
-    let about = &B::ABOUT;
+    ptlp_block {
+        create: Some(create::<B>),
+        destroy: Some(destroy::<B>),
+        prepare: Some(prepare::<B>),
+        compute: Some(compute::<B>),
+        memory: Some(memory::<B>),
+        ..described(&B::ABOUT, B::Params::TABLE)
+    }
+}
+
+/// The table of an input of graphs.
+#[must_use]
+pub const fn graph_input<I: GraphInput>() -> ptlp_block {
+    let mut block = described(&I::ABOUT, I::Params::TABLE);
+    block.flags |= PTLP_BLOCK_GRAPH_INPUT;
+    block.shape = PTLP_SHAPE_WHOLE;
+    block
+}
+
+/// The table of a block type without functions.
+const fn described(about: &About, params: &'static [&'static ptlp_param]) -> ptlp_block {
+    let seed = if about.uses_seed { PTLP_BLOCK_USES_SEED } else { 0 };
+    let varies = if about.varies { PTLP_BLOCK_NOT_DETERMINISTIC } else { 0 };
     ptlp_block {
         struct_size: count(size_of::<ptlp_block>()),
         version: about.version,
         shape: about.shape as u32,
         thread_mode: about.threads as u32,
-        flags: if about.uses_seed { PTLP_BLOCK_USES_SEED } else { 0 },
+        flags: seed | varies,
         input_count: count(about.inputs.len()),
         output_count: count(about.outputs.len()),
-        param_count: count(B::Params::TABLE.len()),
+        param_count: count(params.len()),
         id: about.id.as_ptr(),
         name: optional(about.name),
         category: optional(about.category),
@@ -44,13 +67,13 @@ pub const fn table<B: Block>() -> ptlp_block {
         in_pixels: optional(about.in_pixels),
         inputs: about.inputs.as_ptr().cast(),
         outputs: about.outputs.as_ptr().cast(),
-        params: B::Params::TABLE.as_ptr().cast(),
+        params: params.as_ptr().cast(),
         user_data: ptr::null_mut(),
-        create: Some(create::<B>),
-        destroy: Some(destroy::<B>),
-        prepare: Some(prepare::<B>),
-        compute: Some(compute::<B>),
-        memory: Some(memory::<B>),
+        create: None,
+        destroy: None,
+        prepare: None,
+        compute: None,
+        memory: None,
     }
 }
 
@@ -94,6 +117,7 @@ unsafe extern "C" fn compute<B: Block>(
     inputs: *const *const ptlp_wire,
     outputs: *const *const ptlp_wire,
 ) -> ptlp_status {
+    let open = Open::default();
     // SAFETY: `prepare` is done, so nobody changes the slot; job and wires live during the call,
     // and there are as many as the description says.
     let (slot, job, mut call) = unsafe {
@@ -103,7 +127,7 @@ unsafe extern "C" fn compute<B: Block>(
             std::slice::from_raw_parts(not_null(outputs), about.outputs.len()),
         );
         let slot = &*instance.cast::<Slot<B>>();
-        (slot, Job::new(job), Call::new(Job::new(job), inputs, outputs))
+        (slot, Job::new(job), Call::new((Job::new(job), &open), inputs, outputs))
     };
     guarded::<B>(&job, Some(&slot.is_poisoned), || match &slot.block {
         Some(block) => block.compute(&mut call),

@@ -1,6 +1,12 @@
 //! A plug-in of the tests: blocks that work, and blocks that fail in each way.
 
+mod hair;
+mod values;
+
 use ptlib_plugin::prelude::*;
+
+use hair::{Grow, Roots};
+use values::{Faulty, Head, Tint};
 
 /// The negative of an image: the fastest that a block can be.
 pub struct Invert;
@@ -110,5 +116,6 @@ export_plugin! {
     name: c"Rust blocks of the tests",
     vendor: c"The tests of ptlib",
     license: c"MIT OR Apache-2.0",
-    blocks: [Invert, Fail],
+    blocks: [Invert, Fail, Roots, Grow, Faulty, Tint],
+    inputs: [Head],
 }
