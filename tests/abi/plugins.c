@@ -67,6 +67,41 @@ static int32_t PTL_CALL note(const ptl_scan_report *report, void *user_data)
     return seen->good + seen->bad == seen->stop_after;
 }
 
+/* Two plug-ins, in C and in Rust, in one graph. */
+static void check_two(const char *folder)
+{
+    ptl_engine *engine = NULL;
+    ptl_graph *graph = NULL;
+    ptl_image *image = NULL;
+    ptl_block tiles = 0, block = 0;
+    ptl_compute_options options;
+    char file[4096];
+    const float *pixels;
+    size_t size = 0;
+
+    EXPECT(PTL_OK, ptl_engine_create(NULL, &engine, &error));
+    sprintf(file, "%s/more/hexagons.ptplugin.so", folder);
+    EXPECT(PTL_OK, ptl_engine_load_plugin(engine, file, &error));
+    sprintf(file, "%s/more/rust.ptplugin.so", folder);
+    EXPECT(PTL_OK, ptl_engine_load_plugin(engine, file, &error));
+    EXPECT(PTL_OK, ptl_graph_create(engine, &graph, &error));
+    EXPECT(PTL_OK, ptl_graph_add_block(graph, "hexagons.tiles", &tiles, &error));
+    EXPECT(PTL_OK, ptl_graph_set_float(graph, tiles, "gap", 1.0, &error));
+    EXPECT(PTL_OK, ptl_graph_add_block(graph, "ptlib-rust.invert", &block, &error));
+    EXPECT(PTL_OK, ptl_graph_connect(graph, tiles, 0, block, 0, &error));
+    PTL_COMPUTE_OPTIONS_INIT(&options);
+    options.width = options.height = 40;
+    options.threads = 1;
+    options.format = PTL_FORMAT_GREY_F32;
+    EXPECT(PTL_OK, ptl_graph_compute(graph, block, 0, &options, &image, &error));
+    pixels = (const float *)ptl_image_pixels(image, &size);
+    /* Joints only, which are black, and white when inverted. */
+    CHECK(size == 40 * 40 * sizeof(float) && pixels[0] == 1.0f && pixels[1599] == 1.0f);
+    ptl_image_release(image);
+    ptl_graph_release(graph);
+    ptl_engine_release(engine);
+}
+
 int main(void)
 {
     const char *folder = getenv("PTLIB_TEST_PLUGINS");
@@ -120,5 +155,6 @@ int main(void)
     EXPECT(PTL_OK, ptl_engine_scan_plugins(other, NULL, note, &seen, &error));
     ptl_engine_release(other);
     ptl_engine_release(engine);
+    check_two(folder);
     return 0;
 }

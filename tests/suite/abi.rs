@@ -133,7 +133,8 @@ fn build_and_run(program: &str, how: &str, arguments: &[&str], under: &[&str]) {
     run(&mut command);
 }
 
-/// A folder with a plug-in, and a file that only has the name of one.
+/// A folder with a plug-in, a file that only has the name of one, and a folder with two more: one
+/// in C and one in Rust.
 fn plugin_folder() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| {
@@ -143,6 +144,12 @@ fn plugin_folder() -> &'static Path {
             fs::copy(plugin, folder.join("points.ptplugin.so")).unwrap();
         }
         fs::write(folder.join("garbage.ptplugin.so"), b"no library").unwrap();
+        let more = folder.join("more");
+        fs::create_dir_all(&more).unwrap();
+        if let Some(plugin) = crate::plugins::hexagons() {
+            fs::copy(plugin, more.join("hexagons.ptplugin.so")).unwrap();
+        }
+        fs::copy(crate::plugins::rust_plugin(), more.join("rust.ptplugin.so")).unwrap();
         folder
     })
 }

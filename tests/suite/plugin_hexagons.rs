@@ -4,15 +4,14 @@ use std::collections::BTreeSet;
 
 use ptlib::{ComputeOptions, Engine, EngineOptions, Image, params::ParamValue};
 
-use crate::{abi::root, plugins::build_with};
+use crate::{abi::root, plugins::hexagons};
 
 const HEIGHT: u32 = 0;
 const TILE: u32 = 1;
 const DISTANCE: u32 = 2;
 
 fn engine() -> Option<Engine> {
-    let source = "plugins/c-hexagons/hexagons.c";
-    let plugin = build_with(source, "hexagons", &["-O3", "-ffp-contract=off", "-lm"])?;
+    let plugin = hexagons()?;
     let engine = Engine::new(EngineOptions::default());
     engine.load_plugin(&plugin).unwrap();
     Some(engine)

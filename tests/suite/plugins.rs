@@ -53,6 +53,12 @@ pub(crate) fn build_with(source: &str, name: &str, flags: &[&str]) -> Option<Pat
     Some(plugin)
 }
 
+/// The plug-in in `plugins/c-hexagons`.
+pub(crate) fn hexagons() -> Option<PathBuf> {
+    let source = "plugins/c-hexagons/hexagons.c";
+    build_with(source, "hexagons", &["-O3", "-ffp-contract=off", "-lm"])
+}
+
 /// The plug-in in Rust, which cargo built with these tests, under the name of a plug-in.
 pub(crate) fn rust_plugin() -> PathBuf {
     rust_library("libptlib_test_plugin.so", "rust")
