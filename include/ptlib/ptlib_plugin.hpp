@@ -656,26 +656,24 @@ public:
     }
 
     /// Red, green, blue at a position: constant before the first stop and after the last, linear
-    /// between.
+    /// between; the middle grey if there are no stops. The same bits as in the engine.
     std::array<float, 3> at(float position) const
     {
         const auto all = stops();
+        std::size_t after = 0;
+        while (after < all.size() && all[after].position <= position) {
+            after++;
+        }
         if (all.empty()) {
-            return {0, 0, 0};
+            return {128.0f / 255.0f, 128.0f / 255.0f, 128.0f / 255.0f};
         }
-        std::size_t next = 0;
-        while (next < all.size() && all[next].position <= position) {
-            next++;
-        }
-        if (next == 0 || next == all.size()) {
-            const float *color = all[next == 0 ? 0 : next - 1].color;
-            return {color[0], color[1], color[2]};
-        }
-        const ptl_gradient_stop &from = all[next - 1], &to = all[next];
-        const float part = (position - from.position) / (to.position - from.position);
+        const ptl_gradient_stop &from = all[after == 0 ? 0 : after - 1];
+        const ptl_gradient_stop &to = all[after == all.size() ? after - 1 : after];
+        const float distance = to.position - from.position;
+        const float part = distance > 0 ? (position - from.position) / distance : 0.0f;
         std::array<float, 3> color = {};
         for (std::size_t channel = 0; channel < 3; channel++) {
-            color[channel] = from.color[channel] + part * (to.color[channel] - from.color[channel]);
+            color[channel] = from.color[channel] * (1 - part) + to.color[channel] * part;
         }
         return color;
     }
@@ -1558,7 +1556,11 @@ template <typename Block> struct shims {
     static void PTLP_CALL destroy(void *place) noexcept
     {
         try {
-            delete static_cast<slot<Block> *>(place);
+            auto *made = static_cast<slot<Block> *>(place);
+            Block *block = made->block.release();
+            delete made;
+            // Not by unique_ptr, which no exception may leave.
+            delete block;
         } catch (...) {
             thrown([](const char *text) {
                 plugin::log(level::error, std::string(Block::about.table().id) + ": " + text);
