@@ -36,7 +36,8 @@
  * What is thrown never crosses the border: it becomes a status and the text that users read, with
  * the name of the block. A block_error carries its status, std::bad_alloc means
  * PTLP_E_NO_MEMORY, any other std::exception PTLP_E_FAILED with its what(), anything else
- * PTLP_E_PANIC. What the constructor throws is told when the block is prepared.
+ * PTLP_E_PANIC. What the constructor throws is told when the block is prepared, what the destructor
+ * throws only goes to the log.
  *
  * Everything that a block gets is borrowed until the call returns. Results may depend on
  * parameters, seed, size, precision and inputs only, and have the same bits on every platform: take
@@ -50,7 +51,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <cstdio>
 #include <exception>
 #include <initializer_list>
 #include <limits>
@@ -189,13 +190,21 @@ enum class level : std::int32_t {
     error = PTLP_LOG_ERROR
 };
 
+namespace detail {
+
+inline void write_log(level how, const ptlp_job *job, const char *line) noexcept
+{
+    if (const auto *table = find_service<ptlp_log>(PTLP_LOG)) {
+        table->write(host.load(), job, static_cast<std::int32_t>(how), line);
+    }
+}
+
+} // namespace detail
+
 /// Writes a line to the log of the host, outside of a call. (Inside: work::warn, work::log.)
 inline void log(level how, const std::string &message) noexcept
 {
-    if (const auto *table = detail::find_service<ptlp_log>(PTLP_LOG)) {
-        const auto number = static_cast<std::int32_t>(how);
-        table->write(detail::host.load(), nullptr, number, message.c_str());
-    }
+    detail::write_log(how, nullptr, message.c_str());
 }
 
 /// The host's transcendental functions: the same bits on every platform. Angles are radians. For
@@ -967,10 +976,7 @@ public:
     /// Writes a line to the log.
     void log(level how, const std::string &message) const noexcept
     {
-        if (const auto *table = detail::find_service<ptlp_log>(PTLP_LOG)) {
-            const auto number = static_cast<std::int32_t>(how);
-            table->write(detail::host.load(), job_, number, message.c_str());
-        }
+        detail::write_log(how, job_, message.c_str());
     }
 
     /// Runs task(index) for 0 to before `count` on all threads of the computation, in any order,
@@ -1563,7 +1569,10 @@ template <typename Block> struct shims {
             delete block;
         } catch (...) {
             thrown([](const char *text) {
-                plugin::log(level::error, std::string(Block::about.table().id) + ": " + text);
+                // Without memory of its own: there may be none.
+                char line[512];
+                std::snprintf(line, sizeof line, "%s: %s", Block::about.table().id, text);
+                write_log(level::error, nullptr, line);
             });
         }
     }

@@ -77,7 +77,7 @@ fn exceptions_become_errors_with_the_name_of_the_block() {
 }
 
 #[test]
-fn exceptions_of_constructors_are_told_and_those_of_destructors_logged() {
+fn exceptions_of_constructors_are_told_and_those_of_destructors_do_no_harm() {
     let Some(engine) = engine("throwing") else { return };
     let cases = [
         ("ptlib-cpp.unmade", ErrorKind::PluginFailed, "no brush"),
