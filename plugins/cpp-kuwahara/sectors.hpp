@@ -30,8 +30,8 @@ struct ellipse {
     float x, y;
 };
 
-// The weights of the sectors at a place of the unit disc. They are one together, times a window that
-// falls to 0 at the edge: (1 - d²)² in the place of a Gaussian, because it ends there.
+// The weights of the sectors at a place of the unit disc. They are one together, times a window
+// that falls to 0 at the edge: (1 - d²)² in the place of a Gaussian, because it ends there.
 inline void weigh(float x, float y, float distance, lanes &weights)
 {
     float sum = 0;

@@ -10,7 +10,15 @@ namespace pp = ptlib::plugin;
 
 enum class place { nowhere, prepare, compute, task };
 constexpr const char *place_ids[] = {"nowhere", "prepare", "compute", "task"};
-enum class what { runtime_error, number, bad_alloc, block_error, cancelled, wrong_type, wrong_place };
+enum class what {
+    runtime_error,
+    number,
+    bad_alloc,
+    block_error,
+    cancelled,
+    wrong_type,
+    wrong_place
+};
 constexpr const char *what_ids[] = {"runtime error", "int",       "bad alloc",  "block error",
                                     "cancelled",     "wrong type", "wrong place"};
 
