@@ -14,9 +14,13 @@ mod picture;
 #[cfg(target_os = "linux")]
 mod plugin_abi;
 #[cfg(target_os = "linux")]
+mod plugin_cpp;
+#[cfg(target_os = "linux")]
 mod plugin_faults;
 #[cfg(target_os = "linux")]
 mod plugin_hexagons;
+#[cfg(target_os = "linux")]
+mod plugin_kuwahara;
 #[cfg(target_os = "linux")]
 mod plugin_values;
 #[cfg(target_os = "linux")]

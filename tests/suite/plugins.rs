@@ -32,20 +32,26 @@ pub(crate) fn build(name: &str) -> Option<PathBuf> {
     build_with(name, name, &[])
 }
 
-/// The same under another name, with further flags; `source` may be a path in the repository.
+/// The same under another name, with further flags; `source` may be a path in the repository, of a
+/// file in C or in C++.
 pub(crate) fn build_with(source: &str, name: &str, flags: &[&str]) -> Option<PathBuf> {
     let _one = BUILDING.lock().unwrap_or_else(PoisonError::into_inner);
     let plugin = folder().join(format!("{name}.ptplugin.so"));
-    let compiler = tool("cc")?;
+    let is_cpp = source.ends_with(".cpp");
+    let compiler = tool(if is_cpp { "c++" } else { "cc" })?;
     // A library that is loaded must not change under the feet of other tests.
     if BUILT.lock().unwrap_or_else(PoisonError::into_inner).insert(name.to_owned()) {
-        let source = match source.ends_with(".c") {
+        let source = match is_cpp || source.ends_with(".c") {
             true => source.to_owned(),
             false => format!("tests/plugins/{source}.c"),
         };
         let mut command = Command::new(compiler);
-        command.args(["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic-errors", "-Werror"]);
-        command.args(["-shared", "-fPIC", "-fvisibility=hidden"]).args(flags);
+        command.arg(if is_cpp { "-std=c++17" } else { "-std=c99" });
+        command.args(["-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-pedantic-errors"]);
+        command
+            .args(["-Wconversion", "-Werror"])
+            .args(["-shared", "-fPIC", "-fvisibility=hidden"])
+            .args(flags);
         command.arg("-I").arg(root().join("include"));
         command.arg(root().join(source)).arg("-o").arg(&plugin);
         run(&mut command);
@@ -256,14 +262,19 @@ fn a_graph_file_names_the_plugin_of_a_block_and_is_kept_without_it() {
 
 /// What newcomers copy works. (The template in Rust has a test of its own.)
 #[test]
-fn the_template_in_c_makes_images_black_and_white() {
-    let source = "plugins/templates/c/threshold.c";
-    let Some(plugin) = build_with(source, "threshold", &[]) else { return };
-    let engine = engine(&plugin);
-    let negative = through(&engine, "invert");
-    let image = through(&engine, "my-vendor.threshold");
-    let values = negative.channel(0).iter().map(|value| 1.0 - value);
-    let expected: Vec<f32> = values.map(|value| if value >= 0.5 { 1.0 } else { 0.0 }).collect();
-    assert_eq!(image.channel(0), expected);
-    assert!(expected.contains(&0.0) && expected.contains(&1.0));
+fn the_templates_in_c_and_cpp_make_images_black_and_white() {
+    let templates = [
+        ("plugins/templates/c/threshold.c", "threshold"),
+        ("plugins/templates/cpp/threshold.cpp", "threshold-cpp"),
+    ];
+    for (source, name) in templates {
+        let Some(plugin) = build_with(source, name, &[]) else { continue };
+        let engine = engine(&plugin);
+        let negative = through(&engine, "invert");
+        let image = through(&engine, "my-vendor.threshold");
+        let values = negative.channel(0).iter().map(|value| 1.0 - value);
+        let expected: Vec<f32> = values.map(|value| if value >= 0.5 { 1.0 } else { 0.0 }).collect();
+        assert_eq!(image.channel(0), expected, "{name}");
+        assert!(expected.contains(&0.0) && expected.contains(&1.0));
+    }
 }

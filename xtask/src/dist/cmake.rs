@@ -2,7 +2,8 @@
 
 use super::Names;
 
-/// `ptlib-config.cmake`: the targets `ptlib::shared` and `ptlib::static`.
+/// `ptlib-config.cmake`: the targets `ptlib::shared`, `ptlib::static`, and for plug-ins
+/// `ptlib::headers`.
 pub(super) fn config(names: &Names, native: &[String]) -> String {
     let shared = names.shared();
     let (key, value) = match names.import() {
@@ -13,7 +14,8 @@ pub(super) fn config(names: &Names, native: &[String]) -> String {
     let native = native.join(";");
     format!(
         "\
-# Targets: ptlib::shared, and ptlib::static for programs without other static libraries in Rust.
+# Targets: ptlib::shared, and ptlib::static for programs without other static libraries in Rust;
+# ptlib::headers for plug-ins, which link nothing.
 get_filename_component(_ptlib_prefix \"${{CMAKE_CURRENT_LIST_DIR}}/../../..\" ABSOLUTE)
 
 if(NOT TARGET ptlib::shared)
@@ -31,6 +33,12 @@ if(NOT TARGET ptlib::static)
     INTERFACE_COMPILE_DEFINITIONS PTL_STATIC
     INTERFACE_INCLUDE_DIRECTORIES \"${{_ptlib_prefix}}/include\"
     INTERFACE_LINK_LIBRARIES \"{native}\")
+endif()
+
+if(NOT TARGET ptlib::headers)
+  add_library(ptlib::headers INTERFACE IMPORTED)
+  set_target_properties(ptlib::headers PROPERTIES
+    INTERFACE_INCLUDE_DIRECTORIES \"${{_ptlib_prefix}}/include\")
 endif()
 
 unset(_ptlib_prefix)
@@ -67,11 +75,12 @@ mod tests {
     use super::{super::Platform, *};
 
     #[test]
-    fn both_targets_are_there() {
+    fn all_targets_are_there() {
         let text = config(&Names::new(Platform::Elf, 2), &["-lm".to_owned(), "-lc".to_owned()]);
         assert!(text.contains("IMPORTED_SONAME \"libptlib.so.2\""), "{text}");
         assert!(text.contains("/lib/libptlib.a\""));
         assert!(text.contains("INTERFACE_LINK_LIBRARIES \"-lm;-lc\""));
+        assert!(text.contains("add_library(ptlib::headers INTERFACE IMPORTED)"));
     }
 
     #[test]

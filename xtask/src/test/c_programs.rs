@@ -195,6 +195,35 @@ pub(super) fn cmake(_: bool) -> Result {
     Ok(())
 }
 
+/// Plug-ins in C and C++: what newcomers copy, and larger ones.
+const PLUGINS: [&str; 3] = ["plugins/templates/c", "plugins/templates/cpp", "plugins/cpp-kuwahara"];
+
+/// Plug-ins by CMake, as their READMEs say, checked by the installed `ptc`.
+pub(super) fn plugins(_: bool) -> Result {
+    let folder = folder("plugins")?;
+    let (cmake, compiler, cpp) = (tool("cmake")?, tool("cc")?, tool("c++")?);
+    let ptc = tree().join("bin").join(format!("ptc{}", std::env::consts::EXE_SUFFIX));
+    for plugin in PLUGINS {
+        let built = folder.join(plugin.replace('/', "-"));
+        let mut configure = Command::new(&cmake);
+        configure.arg("-S").arg(repository::root().join(plugin)).arg("-B").arg(&built);
+        configure.arg(format!("-DCMAKE_PREFIX_PATH={}", tree().display()));
+        configure.env("CC", &compiler).env("CXX", &cpp);
+        process::output(&mut configure)?;
+        process::output(Command::new(&cmake).arg("--build").arg(&built))?;
+        let extension = &std::env::consts::DLL_EXTENSION;
+        let libraries = repository::files_in(&built, extension)?;
+        if libraries.is_empty() {
+            return Err(format!("{plugin}: CMake builds no plug-in").into());
+        }
+        for library in libraries {
+            process::output(Command::new(&ptc).arg("check-plugin").arg(library))?;
+            println!("  {plugin} is sound");
+        }
+    }
+    Ok(())
+}
+
 /// Every program under Valgrind.
 pub(super) fn valgrind(_: bool) -> Result {
     let valgrind = tool("valgrind")?;

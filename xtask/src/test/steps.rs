@@ -41,6 +41,7 @@ pub(super) const STEPS: &[Step] = &[
     slow("pkg-config", "C and C++ programs, shared library", &["dist"], c_programs::pkg_config),
     slow("static", "C and C++ programs, static library", &["dist"], c_programs::static_library),
     slow("cmake", "C and C++ programs, find_package", &["dist"], c_programs::cmake),
+    slow("plugins", "plug-ins in C and C++, find_package", &["dist"], c_programs::plugins),
     slow("valgrind", "no invalid access, no leak", &["dist"], c_programs::valgrind),
     slow("sanitizer", "the same by AddressSanitizer", &["dist"], c_programs::sanitizer),
     // Behind `dist`, which asks rustc about the same package and would have it compiled again.
