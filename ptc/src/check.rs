@@ -5,13 +5,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use ptlib::{Engine, Error, ErrorKind, Graph};
+use ptlib::{Error, ErrorKind, Graph};
 use serde::Serialize;
 
 use crate::{
     exit::{Exit, Fault},
     finding::{Finding, Severity, findings},
-    plugins::PluginOptions,
+    plugins::{PluginLoader, PluginOptions, engine_for_types},
     terminal::{self, Printable},
 };
 
@@ -67,9 +67,10 @@ struct FaultReport {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<Exit, Fault> {
-    let engine = arguments.plugins.engine_for_types()?;
+    let engine = engine_for_types();
+    let mut plugins = arguments.plugins.load(&engine, true)?;
     let found: Vec<_> =
-        arguments.graphs.iter().map(|path| (path.as_path(), check(&engine, path))).collect();
+        arguments.graphs.iter().map(|path| (path.as_path(), check(&mut plugins, path))).collect();
     let mut out = terminal::stdout();
     if arguments.json {
         let files = found.iter().map(|(path, findings)| file_report(path, findings)).collect();
@@ -86,8 +87,8 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Exit, Fault> {
 
 /// All that is wrong with a file: what reading it says, and what the graph says of each block that
 /// would be computed.
-fn check(engine: &Engine, path: &Path) -> Vec<Finding> {
-    match engine.open_graph(path) {
+fn check(plugins: &mut PluginLoader<'_>, path: &Path) -> Vec<Finding> {
+    match plugins.open_graph(path) {
         Ok(reading) => {
             let mut findings = findings(&reading.warnings, &faults_of(&reading.graph));
             let lacking = |finding: &&mut Finding| lacks_value(&reading.graph, &finding.error);
@@ -95,6 +96,7 @@ fn check(engine: &Engine, path: &Path) -> Vec<Finding> {
                 finding.severity = Severity::Warning;
             }
             findings.extend(nothing_wanted(&reading.graph));
+            plugins.explain(&reading.graph, &mut findings);
             findings.sort_by_key(Finding::position_or_last);
             findings
         }
@@ -172,7 +174,7 @@ fn fault_report(finding: &Finding) -> FaultReport {
 
 #[cfg(test)]
 mod tests {
-    use ptlib::EngineOptions;
+    use ptlib::{Engine, EngineOptions};
 
     use super::*;
 

@@ -10,7 +10,7 @@ use crate::{
         RangeDescription,
     },
     exit::{Exit, Fault},
-    plugins::PluginOptions,
+    plugins::{PluginOptions, engine_for_types},
     terminal::{self, Printable, wrap},
 };
 
@@ -31,13 +31,13 @@ pub(crate) struct DescribeArguments {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &DescribeArguments) -> Result<Exit, Fault> {
-    let engine = arguments.plugins.engine_for_types()?;
-    let registry = engine.registry();
+    let engine = engine_for_types();
+    let mut plugins = arguments.plugins.load(&engine, true)?;
     let id = arguments.block.join(" ");
-    let spec = registry.get(&id).map_err(|error| {
+    let spec = plugins.block_type(&id).map_err(|error| {
         Fault::usage(error.message(), error.hint().unwrap_or("`ptc list` shows all"))
     })?;
-    let block = BlockDescription::of(registry, spec);
+    let block = BlockDescription::of(engine.registry(), spec);
     let mut out = terminal::stdout();
     if arguments.json {
         terminal::write_json(&mut out, &block)?;
@@ -228,7 +228,7 @@ fn notes(block: &BlockDescription) -> Vec<String> {
         notes.push(format!("Since version {since}."));
     }
     if let Some(plugin) = &block.plugin {
-        notes.push(format!("From a plug-in: {}.", plugin.in_words()));
+        notes.push(format!("From a plug-in: {}.", Printable(&plugin.in_words())));
         notes.extend(plugin.file.as_ref().map(|file| format!("Its file: {}", Printable(file))));
     }
     notes

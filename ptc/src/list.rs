@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::{
     description::BlockDescription,
     exit::{Exit, Fault},
-    plugins::PluginOptions,
+    plugins::{PluginOptions, engine_for_types},
     terminal::{self, wrap},
 };
 
@@ -35,7 +35,8 @@ struct Catalogue {
 
 /// Runs the command.
 pub(crate) fn run(arguments: &ListArguments) -> Result<Exit, Fault> {
-    let engine = arguments.plugins.engine_for_types()?;
+    let engine = engine_for_types();
+    arguments.plugins.load(&engine, true)?.load_usual();
     let mut blocks = described(engine.registry());
     if let Some(family) = &arguments.family {
         let families = families(&blocks);
@@ -69,8 +70,8 @@ fn families(blocks: &[BlockDescription]) -> String {
     families.join(", ")
 }
 
-/// Prints one heading a family of each plug-in, and below it one line a block type, or more if the summary is
-/// long.
+/// Prints one heading a family of each plug-in, and below it one line a block type, or more if the
+/// summary is long.
 fn print(out: &mut impl Write, blocks: &[BlockDescription], columns: usize) -> io::Result<()> {
     let heading = terminal::heading();
     let widest = blocks.iter().map(|block| block.id.chars().count()).max().unwrap_or_default();

@@ -163,6 +163,79 @@ fn what_is_refused_in_a_folder_is_a_warning_and_what_was_named_an_error() {
     assert!(file.out.contains("missing.ptplugin.so: refused: "), "{file:#?}");
 }
 
+/// Loading runs code, so it is left out where nothing is missing.
+#[test]
+fn graphs_and_descriptions_of_builtin_blocks_load_nothing_from_the_usual_folders() {
+    let Some(folder) = folder("plugins-unneeded") else { return };
+    folder.write("b.xml", &support::noise());
+    for line in ["render b.xml -o b.png", "check b.xml --json", "describe perlin noise"] {
+        let run = with_path(&folder, "bad", line).ends_with(0);
+        assert_eq!(run.err, "", "{line}");
+    }
+    with_path(&folder, "bad", "describe perlin nose").ends_with(2).says("broken.ptplugin.so: ");
+    // What is named is wanted.
+    let run = with_path(&folder, "", "render b.xml -o b.png --plugins bad").ends_with(0);
+    run.says("ptc: warning: bad/broken.ptplugin.so: ");
+    // Of two graphs, the second needs a plug-in: folders are searched once.
+    let run = with_path(&folder, "bad:good", "check b.xml a.xml a.xml").ends_with(0);
+    assert_eq!(run.err.matches("ptc: warning: ").count(), 1, "{run:#?}");
+}
+
+#[test]
+fn a_block_that_may_be_in_a_refused_file_is_reported_with_the_reason() {
+    let Some(folder) = folder("plugins-reason") else { return };
+    let reason = "it may be in a file that was refused: bad/broken.ptplugin.so: cannot be loaded";
+    let line = "render a.xml -o a.png --quiet";
+    let run = with_path(&folder, "bad", line).ends_with(1).says_one_error().says(reason);
+    assert_eq!(run.err.matches("(hint: ").count(), 1, "{run:#?}");
+    let run = with_path(&folder, "bad", "check a.xml --json").ends_with(1);
+    assert!(run.out.contains(reason), "{run:#?}");
+    let run = with_path(&folder, "bad", "render a.xml -o a.png --quiet --no-plugins").ends_with(1);
+    assert!(!run.err.contains("refused"), "{run:#?}");
+    // A misspelt built-in block is in no plug-in.
+    folder.write("c.xml", &support::broken());
+    let run = with_path(&folder, "bad", "render c.xml -o c.png --quiet").ends_with(1);
+    assert!(!run.err.contains("refused"), "{run:#?}");
+}
+
+#[test]
+fn a_file_that_is_found_twice_counts_once() {
+    let Some(folder) = folder("plugins-twice") else { return };
+    let link = folder.path("link");
+    std::os::unix::fs::symlink(folder.path("good"), link).unwrap();
+    let line = "plugins --plugin good/points.ptplugin.so";
+    let run =
+        with_path(&folder, "good:link", line).ends_with(0).says("1 plug-in loaded, 0 refused");
+    let repeated = "(PTLIB_PLUGIN_PATH)\n  points.ptplugin.so: is in an earlier place too\n";
+    assert_eq!(run.out.matches(repeated).count(), 2, "{run:#?}");
+    let run = with_path(&folder, "bad:bad", "plugins").ends_with(1);
+    run.says("0 plug-ins loaded, 1 refused");
+}
+
+#[test]
+fn a_folder_that_cannot_be_read_is_refused_with_the_reason() {
+    let Some(folder) = folder("plugins-unreadable") else { return };
+    // Whoever has all rights can read every folder, but nobody can follow a link to itself.
+    std::os::unix::fs::symlink("loop", folder.path("loop")).unwrap();
+    let run = with_path(&folder, "loop:good", "plugins").ends_with(1);
+    let run = run.says("1 plug-in loaded, 1 refused");
+    assert!(run.out.contains("loop (PTLIB_PLUGIN_PATH)\n  loop: refused: "), "{run:#?}");
+    with_path(&folder, "loop:good", "render a.xml -o a.png").ends_with(0).says("warning: loop: ");
+}
+
+#[test]
+fn options_without_a_value_or_a_sense_are_refused_before_anything_is_loaded() {
+    let Some(folder) = folder("plugins-options") else { return };
+    for (line, part) in [
+        ("list --plugin", "--plugin <FILE>"),
+        ("list --plugins", "--plugins <DIR>"),
+        ("render a.xml -o a.png --no-plugin", "similar argument"),
+        ("list --plugin bad/broken.ptplugin.so --plugins nowhere", "\"nowhere\" is no folder"),
+    ] {
+        with_path(&folder, "", line).ends_with(2).says_one_error().says(part);
+    }
+}
+
 #[test]
 fn folders_may_have_any_name() {
     let Some(folder) = folder("plugins-names") else { return };

@@ -1,5 +1,6 @@
 //! `ptc plugins`: which plug-ins are found where, and why something is none.
 
+mod loader;
 mod options;
 
 use std::{
@@ -18,12 +19,13 @@ use ptlib::{
 };
 use serde::Serialize;
 
-pub(crate) use options::PluginOptions;
+pub(crate) use loader::PluginLoader;
+pub(crate) use options::{PluginOptions, engine_for_types};
 
 use crate::{
     description::PluginDescription,
     exit::{Exit, Fault},
-    finding::Severity,
+    finding::{Finding, Severity},
     terminal::{self, Printable, counted},
 };
 
@@ -64,7 +66,8 @@ struct Place {
 #[derive(Debug, Serialize)]
 struct File {
     path: String,
-    /// `loaded`, `refused`, or `not opened` because of its name.
+    /// `loaded`, `refused`, `repeated` if it is in an earlier place too, or `not opened` because of
+    /// its name.
     state: State,
     #[serde(skip_serializing_if = "Option::is_none")]
     plugin: Option<PluginDescription>,
@@ -87,8 +90,17 @@ struct File {
 enum State {
     Loaded,
     Refused,
+    Repeated,
     #[serde(rename = "not opened")]
     NotOpened,
+}
+
+impl File {
+    /// A file that nobody tried to load here.
+    fn not_tried(path: String, state: State, reason: impl Into<String>) -> Self {
+        let (plugin, kind, blocks, details) = (None, None, vec![], vec![]);
+        Self { path, state, plugin, blocks, kind, reason: Some(reason.into()), details }
+    }
 }
 
 /// Runs the command.
@@ -116,7 +128,7 @@ struct Search {
 
 impl Search {
     fn new() -> Self {
-        let engine = options::engine_without_threads();
+        let engine = engine_for_types();
         let said = Arc::new(Mutex::new(vec![]));
         let heard = Arc::clone(&said);
         let log = move |_, message: &str| {
@@ -128,11 +140,11 @@ impl Search {
 
     fn report(&mut self, options: &PluginOptions) -> Report {
         let mut places = vec![];
-        let named = options.files.iter().map(|path| {
+        let mut files = vec![];
+        for path in &options.files {
             let outcome = self.engine.load_plugin(path);
-            self.file(&Scanned { path: path.clone(), outcome })
-        });
-        let files: Vec<_> = named.collect();
+            files.push(self.file(&Scanned { path: path.clone(), outcome }));
+        }
         if !files.is_empty() {
             places.push(Place { folder: None, origin: "command line", exists: true, files });
         }
@@ -156,10 +168,7 @@ impl Search {
             true
         });
         for (found, details) in scanned {
-            let real = fs::canonicalize(&found.path).unwrap_or_else(|_| found.path.clone());
-            if self.seen.insert(real) {
-                files.push(File { details, ..self.file(&found) });
-            }
+            files.push(File { details, ..self.file(&found) });
         }
         files.extend(misnamed(folder));
         files.sort_by(|a, b| a.path.cmp(&b.path));
@@ -167,9 +176,13 @@ impl Search {
         Place { folder: Some(folder.display().to_string()), origin, exists, files }
     }
 
-    fn file(&self, scanned: &Scanned) -> File {
+    fn file(&mut self, scanned: &Scanned) -> File {
         let path = scanned.path.display().to_string();
         let details = self.take_said();
+        let real = fs::canonicalize(&scanned.path).unwrap_or_else(|_| scanned.path.clone());
+        if !self.seen.insert(real) {
+            return File::not_tried(path, State::Repeated, "is in an earlier place too");
+        }
         match &scanned.outcome {
             Ok(plugin) => File {
                 path,
@@ -186,7 +199,7 @@ impl Search {
                 plugin: None,
                 blocks: vec![],
                 kind: Some(error.kind() as u32),
-                reason: options::refusal(scanned),
+                reason: Some(Finding::error(error).fact_of(&scanned.path)),
                 details,
             },
         }
@@ -229,15 +242,7 @@ fn misnamed(folder: &Path) -> Vec<File> {
         } else {
             format!("the names of plug-ins end with .ptplugin.{ending}")
         };
-        Some(File {
-            path: path.display().to_string(),
-            state: State::NotOpened,
-            plugin: None,
-            blocks: vec![],
-            kind: None,
-            reason: Some(reason),
-            details: vec![],
-        })
+        Some(File::not_tried(path.display().to_string(), State::NotOpened, reason))
     });
     libraries.collect()
 }
@@ -278,6 +283,7 @@ fn print_file(out: &mut impl Write, place: &Place, file: &File) -> io::Result<()
             Ok(())
         }
         (State::NotOpened, _) => writeln!(out, "  {name}: not opened: {reason}"),
+        (State::Repeated, _) => writeln!(out, "  {name}: {reason}"),
         _ => {
             let style = terminal::severity_style(Severity::Error);
             writeln!(out, "  {name}: {style}refused:{style:#} {reason}")

@@ -1,17 +1,11 @@
 //! Which plug-ins a command loads.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use ptlib::{
-    Engine, EngineOptions,
-    plugin::{Scanned, search_folders},
-};
+use ptlib::{Engine, EngineOptions};
 
-use crate::{
-    exit::Fault,
-    finding::Finding,
-    terminal::{self, Printable},
-};
+use super::loader::PluginLoader;
+use crate::{exit::Fault, terminal::Printable};
 
 /// The options of all commands that need block types. Named plug-ins win over named folders, and
 /// these over the usual ones.
@@ -32,34 +26,24 @@ pub(crate) struct PluginOptions {
 }
 
 impl PluginOptions {
-    /// An engine that knows the block types, for commands that compute nothing: it needs no
-    /// threads. What is refused is warned of.
-    pub(crate) fn engine_for_types(&self) -> Result<Engine, Fault> {
-        let engine = engine_without_threads();
-        self.load(&engine, true)?;
-        Ok(engine)
-    }
-
-    /// Adds the plug-ins' block types to an engine. What is refused in a folder is warned of if
-    /// `warns`, because no graph may need it.
+    /// Loads what the command line names into an engine. What is refused in a folder is warned of
+    /// if `warns`, because no graph may need it.
     ///
     /// # Errors
     /// Where a file or a folder that the command line names cannot be used.
-    pub(crate) fn load(&self, engine: &Engine, warns: bool) -> Result<(), Fault> {
+    pub(crate) fn load<'a>(
+        &'a self,
+        engine: &'a Engine,
+        warns: bool,
+    ) -> Result<PluginLoader<'a>, Fault> {
+        // A command line that makes no sense is refused before anything is loaded.
+        self.check_folders()?;
         for file in &self.files {
             engine.load_plugin(file).map_err(|error| Fault::of_file(file, &error))?;
         }
-        self.check_folders()?;
-        let usual = if self.no_plugins { vec![] } else { search_folders() };
-        let usual = usual.into_iter().map(|folder| folder.path);
-        let folders: Vec<_> = self.folders.iter().cloned().chain(usual).collect();
-        engine.scan_plugins(&folders, &mut |scanned| {
-            if warns && let Some(refusal) = refusal(scanned) {
-                terminal::warning(&format!("{}: {refusal}", scanned.path.display()));
-            }
-            true
-        });
-        Ok(())
+        let mut loader = PluginLoader::new(engine, !self.no_plugins, warns);
+        loader.load_folders(&self.folders);
+        Ok(loader)
     }
 
     /// Refuses named folders that are none.
@@ -75,16 +59,7 @@ impl PluginOptions {
     }
 }
 
-pub(super) fn engine_without_threads() -> Engine {
+/// An engine for commands that compute nothing: it needs no threads.
+pub(crate) fn engine_for_types() -> Engine {
     Engine::new(EngineOptions { threads: 1, cache_bytes: 0, ..Default::default() })
-}
-
-/// Why a file or folder is not used, if it is not.
-pub(super) fn refusal(scanned: &Scanned) -> Option<String> {
-    let error = scanned.outcome.as_ref().err()?;
-    Some(fact(&scanned.path, error))
-}
-
-pub(super) fn fact(path: &Path, error: &ptlib::Error) -> String {
-    Finding::error(error).fact_of(path)
 }

@@ -21,7 +21,7 @@ use crate::{
 pub(crate) fn run(arguments: &RenderArguments) -> Result<Exit, Fault> {
     let cancel = interrupt::cancel_on_interrupt();
     let engine = Engine::new(arguments.engine_options());
-    arguments.plugins.load(&engine, !arguments.quiet)?;
-    let plan = plan::plan(arguments, &engine)?;
+    let plugins = arguments.plugins.load(&engine, !arguments.quiet)?;
+    let plan = plan::plan(arguments, &engine, plugins)?;
     Ok(batch::render(arguments, &engine, &plan, &cancel))
 }

@@ -14,6 +14,7 @@ use crate::{
     finding::{Finding, Severity, findings},
     output,
     pattern::Picture,
+    plugins::PluginLoader,
     terminal,
 };
 
@@ -40,10 +41,14 @@ pub(super) struct Target {
 }
 
 /// Reads all graphs and names their pictures. What is wrong with a graph is shown at once.
-pub(super) fn plan<'a>(arguments: &'a RenderArguments, engine: &Engine) -> Result<Plan<'a>, Fault> {
+pub(super) fn plan<'a>(
+    arguments: &'a RenderArguments,
+    engine: &Engine,
+    mut plugins: PluginLoader<'_>,
+) -> Result<Plan<'a>, Fault> {
     let mut plan = Plan { jobs: vec![], failed: 0 };
     for path in &arguments.graphs {
-        let (job, findings) = job(arguments, engine, path);
+        let (job, findings) = job(arguments, engine, &mut plugins, path);
         let fails = findings.iter().any(|finding| finding.severity == Severity::Error);
         show(&findings, path, arguments);
         plan.failed += usize::from(fails);
@@ -58,10 +63,11 @@ pub(super) fn plan<'a>(arguments: &'a RenderArguments, engine: &Engine) -> Resul
 fn job<'a>(
     arguments: &RenderArguments,
     engine: &Engine,
+    plugins: &mut PluginLoader<'_>,
     path: &'a Path,
 ) -> (Option<Job<'a>>, Vec<Finding>) {
     let started = Instant::now();
-    let Reading { mut graph, warnings } = match engine.open_graph(path) {
+    let Reading { mut graph, warnings } = match plugins.open_graph(path) {
         Ok(reading) => reading,
         Err(error) => return (None, findings(&[], &[error])),
     };
@@ -74,8 +80,9 @@ fn job<'a>(
     match targets(arguments, path, &graph) {
         Ok(targets) => {
             let job = Job { path, graph, targets, reading };
-            let faults = faults_of(&job, arguments);
-            (Some(job), findings(&warnings, &faults))
+            let mut findings = findings(&warnings, &faults_of(&job, arguments));
+            plugins.explain(&job.graph, &mut findings);
+            (Some(job), findings)
         }
         Err(error) => (None, findings(&warnings, &[error])),
     }
