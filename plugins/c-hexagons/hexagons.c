@@ -94,12 +94,12 @@ static ptlp_status PTLP_CALL prepare(void *instance, const ptlp_job *job, const 
     self->tilt = (float)values[TILT]->number;
     if (self->is_flat) {
         self->along = columns + (columns & 1);
-        self->across = nearest(self->along * PITCH * aspect);
+        self->across = nearest(self->along * (double)PITCH * aspect);
         width = setup->height;
         height = setup->width;
     } else {
         self->across = columns;
-        self->along = nearest_even(columns * aspect / PITCH);
+        self->along = nearest_even(columns * aspect / (double)PITCH);
     }
     self->scale_across = (float)self->across / (float)width;
     self->scale_along = (float)self->along / (float)height;

@@ -62,7 +62,7 @@ pub(crate) fn build_with(source: &str, name: &str, flags: &[&str]) -> Option<Pat
 /// The plug-in in `plugins/c-hexagons`.
 pub(crate) fn hexagons() -> Option<PathBuf> {
     let source = "plugins/c-hexagons/hexagons.c";
-    build_with(source, "hexagons", &["-O3", "-ffp-contract=off", "-lm"])
+    build_with(source, "hexagons", &["-lm"])
 }
 
 /// The plug-in in Rust, which cargo built with these tests, under the name of a plug-in.

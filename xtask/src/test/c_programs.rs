@@ -196,7 +196,8 @@ pub(super) fn cmake(_: bool) -> Result {
 }
 
 /// Plug-ins in C and C++: what newcomers copy, and larger ones.
-const PLUGINS: [&str; 3] = ["plugins/templates/c", "plugins/templates/cpp", "plugins/cpp-kuwahara"];
+const PLUGINS: [&str; 4] =
+    ["plugins/templates/c", "plugins/templates/cpp", "plugins/c-hexagons", "plugins/cpp-kuwahara"];
 
 /// Plug-ins by CMake, as their READMEs say, checked by the installed `ptc`.
 pub(super) fn plugins(_: bool) -> Result {
