@@ -500,8 +500,9 @@ typedef struct ptlp_math {
 
 /** PTLP_VALUES: values for outputs that are no images. Only for blocks of shape Whole, in compute.
  *
- *  ..._begin takes counts and streams (type, components, flags, id) in its struct, and gives the
- *  same struct with memory of the host in it: zeroed, 64-byte aligned, to be written until finish.
+ *  ..._begin takes counts and streams (type, components, flags, id; stride 0) in its struct, and
+ *  gives the same struct with memory of the host in it: zeroed, 64-byte aligned, to be written until
+ *  finish.
  *  A stream whose data is not NULL must be one of an input of this call, with the same count: it is
  *  shared, not copied. So are indices and first_point. */
 typedef struct ptlp_values {

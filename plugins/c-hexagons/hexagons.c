@@ -212,7 +212,9 @@ static float height(const hexagons *self, const place *at, float distance)
 {
     const tile_row *row = at->row;
     float slope = row->lean_across * at->across + row->lean_along * at->along;
-    float top = 1.0f - self->variation * row->value + self->tilt * slope;
+    /* A slope is 1.08 at most, so that nothing is cut off at white. */
+    float highest = 1.0f - self->tilt * 0.5f;
+    float top = highest - self->variation * highest * row->value + self->tilt * 0.46f * slope;
     top = top < 0.0f ? 0.0f : top > 1.0f ? 1.0f : top;
     return bevelled(self, distance) * top;
 }

@@ -76,6 +76,7 @@ static void check_two(const char *folder)
     ptl_block tiles = 0, block = 0;
     ptl_compute_options options;
     char file[4096];
+    const double all = 1.0;
     const float *pixels;
     size_t size = 0;
 
@@ -86,7 +87,7 @@ static void check_two(const char *folder)
     EXPECT(PTL_OK, ptl_engine_load_plugin(engine, file, &error));
     EXPECT(PTL_OK, ptl_graph_create(engine, &graph, &error));
     EXPECT(PTL_OK, ptl_graph_add_block(graph, "hexagons.tiles", &tiles, &error));
-    EXPECT(PTL_OK, ptl_graph_set_float(graph, tiles, "gap", 1.0, &error));
+    EXPECT(PTL_OK, ptl_graph_set_float(graph, tiles, "gap", &all, 1, &error));
     EXPECT(PTL_OK, ptl_graph_add_block(graph, "ptlib-rust.invert", &block, &error));
     EXPECT(PTL_OK, ptl_graph_connect(graph, tiles, 0, block, 0, &error));
     PTL_COMPUTE_OPTIONS_INIT(&options);

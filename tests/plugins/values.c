@@ -132,8 +132,10 @@ static ptlp_status PTLP_CALL wrong(
     borrowed.data = nowhere;
     if (fault == 1 || fault == 9)
         wanted[0] = &borrowed; /* memory that is not the host's */
-    if (fault == 9)
+    if (fault == 9) {
+        borrowed.data = NULL; /* new, but laid out as no stream can be */
         borrowed.stride = 3;
+    }
     if (fault == 2)
         mesh.struct_size = 8;
     if (fault == 3)

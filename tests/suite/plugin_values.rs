@@ -92,7 +92,7 @@ fn what_a_block_makes_wrongly_is_refused() {
         (ErrorKind::OutOfRange, "position"),
         (ErrorKind::PluginFailed, "did not finish"),
         (ErrorKind::TypeMismatch, "gives a mesh, not a text"),
-        (ErrorKind::InvalidArgument, "of no stream of an input"),
+        (ErrorKind::InvalidArgument, "`streams[0].stride` is 3, allowed are 0 and 12"),
     ];
     for (fault, (kind, said)) in (0..).zip(cases) {
         let error = wrong(&engine, fault);

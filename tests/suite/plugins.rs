@@ -48,12 +48,10 @@ pub(crate) fn build_with(source: &str, name: &str, flags: &[&str]) -> Option<Pat
         let mut command = Command::new(compiler);
         command.arg(if is_cpp { "-std=c++17" } else { "-std=c99" });
         command.args(["-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-pedantic-errors"]);
-        command
-            .args(["-Wconversion", "-Werror"])
-            .args(["-shared", "-fPIC", "-fvisibility=hidden"])
-            .args(flags);
+        command.args(["-Wconversion", "-Werror", "-shared", "-fPIC", "-fvisibility=hidden"]);
         command.arg("-I").arg(root().join("include"));
-        command.arg(root().join(source)).arg("-o").arg(&plugin);
+        // Libraries count only behind what needs them.
+        command.arg(root().join(source)).arg("-o").arg(&plugin).args(flags);
         run(&mut command);
     }
     Some(plugin)

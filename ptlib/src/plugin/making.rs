@@ -157,7 +157,16 @@ impl<'a> Making<'a> {
             let template = unsafe { &*template };
             // SAFETY: the contract.
             let shape = unsafe { shape_of(template, &name) }?;
+            let has_stride = |given: usize| match template.stride {
+                0 => Ok(()),
+                stride if stride == given => Ok(()),
+                stride => {
+                    let message = format!("`{name}.stride` is {stride}, allowed are 0 and {given}");
+                    Err(wrong(message))
+                }
+            };
             if template.data.is_null() {
+                has_stride(shape.components as usize * size_of::<u32>())?;
                 return Ok(StreamPlan::New(shape));
             }
             let shared = self.streams_of_inputs().find(|stream| {
@@ -166,7 +175,9 @@ impl<'a> Making<'a> {
             });
             let message =
                 || format!("`{name}.data` is of no stream of an input of that id and type");
-            Ok(StreamPlan::Shared(shared.ok_or_else(|| wrong(message()))?.clone()))
+            let shared = shared.ok_or_else(|| wrong(message()))?;
+            has_stride(shared.stride())?;
+            Ok(StreamPlan::Shared(shared.clone()))
         };
         pointers.iter().enumerate().map(plan).collect()
     }
