@@ -1,0 +1,118 @@
+using System;
+using System.Diagnostics;
+using System.IO;
+
+namespace PtLib.Tests
+{
+    /// <summary>Finding the native library: each test in a process of its own.</summary>
+    internal static class LoadingTests
+    {
+        internal static void Run(Runner runner)
+        {
+            runner.Run("loading: a file that is not there", MissingFile);
+            runner.Run("loading: a folder without the library", MissingInFolder);
+            runner.Run("loading: a file that is no library", NoLibrary);
+            runner.Run("loading: a library of another ABI version", WrongVersion);
+            runner.Run("loading: the file is told", LoadedFrom);
+        }
+
+        /// <summary>In the other process.</summary>
+        internal static int LoadHere()
+        {
+            try
+            {
+                using (new Engine())
+                {
+                    Console.WriteLine("loaded " + PtLibrary.LoadedFrom);
+                }
+                return 0;
+            }
+            catch (PtLibLoadException exception)
+            {
+                Console.WriteLine(exception.PathsTried.Count + " tried: " + exception.Message);
+                return 3;
+            }
+        }
+
+        private static void MissingFile()
+        {
+            var text = Load("/no/such/libptlib.so", 3);
+            Assert.Contains("1 tried", text);
+            Assert.Contains("/no/such/libptlib.so", text);
+            Assert.Contains("PTLIB_NATIVE_PATH", text);
+        }
+
+        private static void MissingInFolder()
+        {
+            var folder = Path.Combine(Path.GetTempPath(), Path.GetRandomFileName());
+            Directory.CreateDirectory(folder);
+            try
+            {
+                Assert.Contains(folder, Load(folder, 3));
+            }
+            finally
+            {
+                Directory.Delete(folder, true);
+            }
+        }
+
+        private static void NoLibrary()
+        {
+            var file = Path.GetTempFileName();
+            try
+            {
+                Assert.Contains("could not be loaded", Load(file, 3));
+            }
+            finally
+            {
+                File.Delete(file);
+            }
+        }
+
+        private static void WrongVersion()
+        {
+            var library = Environment.GetEnvironmentVariable("PTLIB_TEST_OTHER_ABI");
+            if (string.IsNullOrEmpty(library))
+            {
+                Console.WriteLine("(no library of another ABI: set PTLIB_TEST_OTHER_ABI)");
+                return;
+            }
+            var text = Load(library, 3);
+            Assert.Contains("ABI version 999", text);
+            Assert.Contains("made for version 0", text);
+            Assert.Contains(library, text);
+        }
+
+        private static void LoadedFrom()
+        {
+            var file = PtLibrary.LoadedFrom;
+            if (file.Length > 0)
+            {
+                Assert.Contains("loaded " + file, Load(file, 0));
+            }
+        }
+
+        /// <summary>Loads the library in a process with PTLIB_NATIVE_PATH.</summary>
+        private static string Load(string path, int code)
+        {
+            var host = Process.GetCurrentProcess().MainModule.FileName;
+            var program = typeof(LoadingTests).Assembly.Location;
+            var start = new ProcessStartInfo(host, "\"" + program + "\" --load")
+            {
+                UseShellExecute = false,
+                RedirectStandardOutput = true,
+            };
+            start.EnvironmentVariables["PTLIB_NATIVE_PATH"] = path;
+            using (var process = Process.Start(start))
+            {
+                var text = process.StandardOutput.ReadToEnd();
+                process.WaitForExit();
+                if (process.ExitCode != code)
+                {
+                    throw new Exception("exit code " + process.ExitCode + ": " + text);
+                }
+                return text;
+            }
+        }
+    }
+}
