@@ -9,7 +9,7 @@ namespace PtLib.Tests
     internal static class BlockTests
     {
         private static readonly ManagedPlugin Plugin = new ManagedPlugin(
-            "tests", "1.0.0", "MIT", new Ramp(), new Upside(), new Faulty());
+            "tests", "1.0.0", "MIT", new Ramp(), new Upside(), new Faulty(), new Services());
 
         internal static void Run(Runner runner)
         {
@@ -19,6 +19,8 @@ namespace PtLib.Tests
             runner.Run("blocks: an exception comes out as the cause", Exceptions);
             runner.Run("blocks: a wrong description is refused", WrongDescription);
             runner.Run("blocks: cancelling", Cancelling);
+            runner.Run("blocks: functions and random numbers of the engine", OfTheEngine);
+            runner.Run("blocks: inputs are only read", InputsAreRead);
         }
 
         private static void With(Action<Graph> action)
@@ -127,6 +129,66 @@ namespace PtLib.Tests
             });
         }
 
+        private static void OfTheEngine()
+        {
+            With(graph =>
+            {
+                using (var image = graph.Compute(graph.Add("tests.services")))
+                {
+                    var pixels = image.ToFloatArray();
+                    Assert.True(Math.Abs(Math.Sin(0.5) - pixels[0]) < 1e-7, "sin");
+                    Assert.True(Math.Abs(Math.Atan2(1, 2) - pixels[1]) < 1e-7, "atan2");
+                    Assert.True(Math.Abs(Math.Pow(0.5, 0.25) - pixels[2]) < 1e-7, "pow");
+                    Assert.True(pixels[3] >= 0 && pixels[3] < 1, "uniform");
+                    Assert.True(pixels[3] != pixels[4], "another item, another number");
+                    Assert.Equal(0.5f, pixels[5]);
+                }
+            });
+        }
+
+        private static void InputsAreRead()
+        {
+            With(graph =>
+            {
+                var upside = graph.Add("tests.upside").Set("spoil", true);
+                graph.Connect(graph.Add("perlin noise"), upside);
+                var error = Assert.Fails(Status.PluginFailed, () => graph.Compute(upside));
+                Assert.True(error.InnerException is InvalidOperationException, "the cause");
+            });
+        }
+
+        private sealed class Services : ImageBlock<string>
+        {
+            internal Services()
+                : base("tests.services", "Asks the engine.")
+            {
+            }
+
+            protected override string Prepare(BlockSetup setup)
+            {
+                return string.Empty;
+            }
+
+            protected override void Compute(string state, BlockCall call)
+            {
+                for (var y = 0; y < call.Output.Height; y++)
+                {
+                    var row = call.Output.Row(0, y);
+                    for (var x = 0; x < row.Length; x++)
+                    {
+                        row[x] = 0;
+                    }
+                }
+                var samples = call.Output.Row(0, 0);
+                samples[0] = (float)EngineMath.Sin(0.5);
+                samples[1] = (float)EngineMath.Atan2(1, 2);
+                samples[2] = (float)EngineMath.Pow(0.5, 0.25);
+                samples[3] = EngineNoise.Uniform(7, 1, 0, 0);
+                samples[4] = EngineNoise.Uniform(7, 2, 0, 0);
+                samples[5] = (float)EngineMath.Cbrt(0.125);
+            }
+        }
+
         private sealed class Ramp : RowBlock<Ramp.State>
         {
             private readonly BlockParameter gain;
@@ -172,21 +234,28 @@ namespace PtLib.Tests
         private sealed class Upside : ImageBlock<string>
         {
             private readonly int image;
+            private readonly BlockParameter spoil;
 
             internal Upside()
                 : base("tests.upside", "Turns an image upside down.")
             {
                 image = AddInput("image");
+                spoil = AddFlag("spoil", "Writes into the input.", false);
             }
 
             protected override string Prepare(BlockSetup setup)
             {
-                return string.Empty;
+                return setup.GetBoolean(spoil) ? "spoil" : string.Empty;
             }
 
             protected override void Compute(string state, BlockCall call)
             {
                 var input = call.Input(image);
+                if (state.Length > 0)
+                {
+                    var samples = input.Row(0, 0);
+                    samples[0] = 1;
+                }
                 for (var y = 0; y < input.Height; y++)
                 {
                     call.ThrowIfCancelled();

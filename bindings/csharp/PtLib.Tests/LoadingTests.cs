@@ -1,6 +1,7 @@
 using System;
 using System.Diagnostics;
 using System.IO;
+using System.Runtime.InteropServices;
 
 namespace PtLib.Tests
 {
@@ -14,6 +15,8 @@ namespace PtLib.Tests
             runner.Run("loading: a file that is no library", NoLibrary);
             runner.Run("loading: a library of another ABI version", WrongVersion);
             runner.Run("loading: the file is told", LoadedFrom);
+            runner.Run("loading: every path is listed", Listed);
+            runner.Run("loading: beside the assembly, and below runtimes", Installed);
         }
 
         /// <summary>In the other process.</summary>
@@ -92,11 +95,68 @@ namespace PtLib.Tests
             }
         }
 
+        private static void Listed()
+        {
+            string text;
+            try
+            {
+                text = Load(string.Empty, 3);
+            }
+            catch (Exception exception) when (exception.Message.Contains("loaded"))
+            {
+                return; // it is installed in the system
+            }
+            Assert.Contains("runtimes", text);
+            Assert.Contains("where the system looks", text);
+            Assert.Contains(AppContext.BaseDirectory.TrimEnd('/', '\\'), text);
+        }
+
+        /// <summary>A copy of the program, with the library where packages put it.</summary>
+        private static void Installed()
+        {
+            var library = PtLibrary.LoadedFrom;
+            if (library.Length == 0)
+            {
+                return;
+            }
+            var folder = Path.Combine(Path.GetTempPath(), Path.GetRandomFileName());
+            Directory.CreateDirectory(folder);
+            try
+            {
+                foreach (var file in Directory.GetFiles(AppContext.BaseDirectory, "PtLib*"))
+                {
+                    File.Copy(file, Path.Combine(folder, Path.GetFileName(file)));
+                }
+                var program = Path.Combine(
+                    folder, Path.GetFileName(typeof(LoadingTests).Assembly.Location));
+                var native = Path.Combine(folder, "runtimes", RuntimeId(), "native");
+                Directory.CreateDirectory(native);
+                var name = Path.GetFileName(library);
+                File.Copy(library, Path.Combine(native, name));
+                Assert.Contains("loaded " + native, Load(string.Empty, 0, program));
+                File.Move(Path.Combine(native, name), Path.Combine(folder, name));
+                Assert.Contains(
+                    "loaded " + Path.Combine(folder, name), Load(string.Empty, 0, program));
+            }
+            finally
+            {
+                Directory.Delete(folder, true);
+            }
+        }
+
+        private static string RuntimeId()
+        {
+            var system = Path.DirectorySeparatorChar == '\\' ? "win"
+                : RuntimeInformation.IsOSPlatform(OSPlatform.OSX) ? "osx" : "linux";
+            return system + "-" +
+                RuntimeInformation.ProcessArchitecture.ToString().ToLowerInvariant();
+        }
+
         /// <summary>Loads the library in a process with PTLIB_NATIVE_PATH.</summary>
-        private static string Load(string path, int code)
+        private static string Load(string path, int code, string program = null)
         {
             var host = Process.GetCurrentProcess().MainModule.FileName;
-            var program = typeof(LoadingTests).Assembly.Location;
+            program = program ?? typeof(LoadingTests).Assembly.Location;
             var start = new ProcessStartInfo(host, "\"" + program + "\" --load")
             {
                 UseShellExecute = false,

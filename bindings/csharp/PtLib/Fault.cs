@@ -24,7 +24,8 @@ namespace PtLib
         /// <summary>The line in the file, from 1; 0 if it concerns no place of a file.</summary>
         public int Line { get; }
 
-        /// <summary>The column in characters, from 1; 0 if it concerns no place of a file.</summary>
+        /// <summary>The column in characters, from 1; 0 if it concerns no place of a file.
+        /// </summary>
         public int Column { get; }
 
         /// <summary>The handle of the block that it concerns (see <see cref="Block.Handle"/>);

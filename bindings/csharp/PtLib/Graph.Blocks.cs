@@ -195,7 +195,9 @@ namespace PtLib
             if (!block.HasValue)
             {
                 throw new PtLibException(
-                    Status.NotFound, "The graph has no input of the name \"" + name + "\".", "name");
+                    Status.NotFound,
+                    "The graph has no input of the name \"" + name + "\".",
+                    nameof(name));
             }
             SetInput(block.Value, value);
         }

@@ -40,7 +40,16 @@ namespace PtLib
                     &native,
                     &image,
                     &error);
-                watcher.Check(status, error);
+                try
+                {
+                    watcher.Check(status, error);
+                }
+                catch
+                {
+                    // The last report may have thrown when all was done.
+                    NativeMethods.ptl_image_release(image);
+                    throw;
+                }
             }
             return new Image(image);
         }
@@ -107,7 +116,15 @@ namespace PtLib
                     &native,
                     &value,
                     &error);
-                watcher.Check(status, error);
+                try
+                {
+                    watcher.Check(status, error);
+                }
+                catch
+                {
+                    NativeMethods.ptl_value_release(value);
+                    throw;
+                }
             }
             return Value.Of(value);
         }

@@ -40,7 +40,7 @@ namespace PtLib.Blocks
         /// <summary>What is to be written, all of it.</summary>
         public BlockImage Output
         {
-            get { return new BlockImage((NativeTile*)outputs[0]->Value); }
+            get { return new BlockImage((NativeTile*)outputs[0]->Value, true); }
         }
 
         /// <summary>What is at an input.</summary>
@@ -54,7 +54,7 @@ namespace PtLib.Blocks
             }
             var wire = inputs[index];
             var isImage = wire->Kind == (uint)ValueKind.Image;
-            return new BlockImage(isImage ? (NativeTile*)wire->Value : null);
+            return new BlockImage(isImage ? (NativeTile*)wire->Value : null, false);
         }
 
         /// <summary>Ends the call if it is cancelled: ask every millisecond of work.</summary>

@@ -70,6 +70,7 @@ namespace PtLib.Blocks
         {
             try
             {
+                HostServices.Find(host);
                 var definition = (ManagedBlock)Target(block->UserData);
                 *instance = GCHandle.ToIntPtr(GCHandle.Alloc(new BlockInstance(definition)));
                 return (int)Status.Ok;

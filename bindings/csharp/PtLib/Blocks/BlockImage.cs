@@ -7,10 +7,12 @@ namespace PtLib.Blocks
     public readonly unsafe ref struct BlockImage
     {
         private readonly NativeTile* tile;
+        private readonly bool isWritable;
 
-        internal BlockImage(NativeTile* tile)
+        internal BlockImage(NativeTile* tile, bool isWritable)
         {
             this.tile = tile;
+            this.isWritable = isWritable;
         }
 
         /// <summary>Whether there is one: an optional input may not be connected.</summary>
@@ -74,7 +76,8 @@ namespace PtLib.Blocks
                 throw new ArgumentOutOfRangeException(
                     plane == null ? nameof(channel) : nameof(row));
             }
-            return new Samples(plane + ((long)row * (long)tile->RowStride), (int)tile->Width);
+            var first = plane + ((long)row * (long)tile->RowStride);
+            return new Samples(first, (int)tile->Width, isWritable);
         }
 
         private float* Plane(int channel)

@@ -8,16 +8,20 @@ namespace PtLib.Blocks
     {
         private readonly float* first;
 
-        internal Samples(float* first, int length)
+        internal Samples(float* first, int length, bool isWritable)
         {
             this.first = first;
+            IsWritable = isWritable;
             Length = length;
         }
 
         /// <summary>How many there are.</summary>
         public int Length { get; }
 
-        /// <summary>One sample. Those of inputs are only to be read.</summary>
+        /// <summary>Whether they are those of an output; those of inputs are only read.</summary>
+        public bool IsWritable { get; }
+
+        /// <summary>One sample.</summary>
         /// <param name="index">Its number, from 0.</param>
         /// <returns>The sample.</returns>
         public float this[int index]
@@ -29,18 +33,36 @@ namespace PtLib.Blocks
 
             set
             {
+                RequireWritable();
                 first[Checked(index)] = value;
             }
         }
 
 #if NET8_0_OR_GREATER
-        /// <summary>All of them.</summary>
+        /// <summary>All of an output, to be written.</summary>
         /// <returns>A span over the memory of the engine.</returns>
+        /// <exception cref="InvalidOperationException">They are those of an input.</exception>
         public Span<float> AsSpan()
         {
+            RequireWritable();
             return new Span<float>(first, Length);
         }
+
+        /// <summary>All of them, to be read.</summary>
+        /// <returns>A span over the memory of the engine.</returns>
+        public ReadOnlySpan<float> AsReadOnlySpan()
+        {
+            return new ReadOnlySpan<float>(first, Length);
+        }
 #endif
+
+        private void RequireWritable()
+        {
+            if (!IsWritable)
+            {
+                throw new InvalidOperationException("The samples of an input are only read.");
+            }
+        }
 
         private int Checked(int index)
         {

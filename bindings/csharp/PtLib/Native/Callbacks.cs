@@ -110,7 +110,8 @@ namespace PtLib.Native
         private static T Target<T>(IntPtr userData)
             where T : class
         {
-            return (T)(GCHandle.FromIntPtr(userData).Target ?? throw new InvalidOperationException());
+            return (T)(GCHandle.FromIntPtr(userData).Target ??
+                throw new InvalidOperationException());
         }
     }
 }

@@ -1,5 +1,5 @@
 using System;
-#if !NET8_0_OR_GREATER
+#if !NET8_0_OR_GREATER && !UNITY_5_3_OR_NEWER
 using System.Runtime.CompilerServices;
 #endif
 using System.Runtime.InteropServices;
@@ -37,6 +37,12 @@ namespace PtLib.Native
         {
             return name == NativeMethods.Library ? NativeLibrary.Load(chosen) : IntPtr.Zero;
         }
+#elif UNITY_5_3_OR_NEWER
+        /// <summary>No: Unity finds libraries by its own rules.</summary>
+        internal static bool Bind(string file)
+        {
+            return false;
+        }
 #else
         /// <summary>Whether the file is what will be loaded.</summary>
         internal static bool Bind(string file)
@@ -56,7 +62,7 @@ namespace PtLib.Native
             }
             catch (EntryPointNotFoundException)
             {
-                // A mono inside another program (Unity) hides it, and finds libraries itself.
+                // A mono inside another program may hide it.
             }
             return false;
         }

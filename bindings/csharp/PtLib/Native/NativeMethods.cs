@@ -16,7 +16,11 @@ namespace PtLib.Native
     internal static unsafe partial class NativeMethods
     {
         /// <summary>What the loader is asked for: ptlib.dll, libptlib.so, libptlib.dylib.</summary>
+#if UNITY_IOS && !UNITY_EDITOR
+        internal const string Library = "__Internal"; // linked into the program
+#else
         internal const string Library = "ptlib";
+#endif
 
         /// <summary>The PTL_ABI_VERSION that these declarations are of.</summary>
         internal const uint AbiVersion = 0;

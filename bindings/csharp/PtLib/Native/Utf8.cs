@@ -25,7 +25,7 @@ namespace PtLib.Native
             return bytes;
         }
 
-        /// <summary>The same, of a text that may be missing: then null, which C gets as NULL.</summary>
+        /// <summary>The same, of a text that may be missing: then null, which is NULL in C.</summary>
         [return: MaybeNull]
         internal static byte[] OfOptional([AllowNull] string text, string parameter)
         {
