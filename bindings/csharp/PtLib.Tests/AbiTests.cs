@@ -19,6 +19,7 @@ namespace PtLib.Tests
             runner.Run("abi: every declared function is in the library", Entries);
             runner.Run("abi: structs have the sizes of the library", Sizes);
             runner.Run("abi: the version is that of the header", Version);
+            runner.Run("abi: packages have the version of the library", Packages);
             runner.Run("abi: enums have the numbers of the header", Enums);
         }
 
@@ -96,6 +97,23 @@ namespace PtLib.Tests
             var declared = Native("NativeMethods").GetField("AbiVersion", Everything);
             Assert.Equal(
                 uint.Parse(match.Groups[1].Value), (uint)declared.GetRawConstantValue());
+        }
+
+        private static void Packages()
+        {
+            var files = new[]
+            {
+                "Directory.Build.props", "PtLib.Native/PtLib.Native.nuspec", "Unity/package.json",
+            };
+            foreach (var file in files)
+            {
+                var text = File.ReadAllText(Repository.File("bindings/csharp/" + file));
+                Assert.Contains(PtLibrary.Version, text);
+                foreach (Match match in Regex.Matches(text, @"\[([0-9.]+)\]"))
+                {
+                    Assert.Equal(PtLibrary.Version, match.Groups[1].Value);
+                }
+            }
         }
 
         private static void Enums()

@@ -8,6 +8,9 @@ namespace PtLib.Tests
     /// <summary>Finding the native library: each test in a process of its own.</summary>
     internal static class LoadingTests
     {
+        /// <summary>A variable that tells the other process what to do before it loads.</summary>
+        private const string Way = "PTLIB_TEST_LOADING";
+
         internal static void Run(Runner runner)
         {
             runner.Run("loading: a file that is not there", MissingFile);
@@ -16,14 +19,31 @@ namespace PtLib.Tests
             runner.Run("loading: a library of another ABI version", WrongVersion);
             runner.Run("loading: the file is told", LoadedFrom);
             runner.Run("loading: every path is listed", Listed);
+            runner.Run("loading: a program that finds the library by itself", Switch);
+#if NET8_0_OR_GREATER
+            runner.Run("loading: a resolver that is there already", OwnResolver);
+#endif
             runner.Run("loading: beside the assembly, and below runtimes", Installed);
         }
 
         /// <summary>In the other process.</summary>
         internal static int LoadHere()
         {
+            var way = Environment.GetEnvironmentVariable(Way);
             try
             {
+                if (way == "switch")
+                {
+                    AppContext.SetSwitch("PtLib.DisableNativeResolver", true);
+                }
+#if NET8_0_OR_GREATER
+                if (way == "own")
+                {
+                    NativeLibrary.SetDllImportResolver(
+                        typeof(Engine).Assembly,
+                        (name, assembly, search) => throw new DllNotFoundException("own resolver"));
+                }
+#endif
                 using (new Engine())
                 {
                     Console.WriteLine("loaded " + PtLibrary.LoadedFrom);
@@ -111,6 +131,29 @@ namespace PtLib.Tests
             Assert.Contains(AppContext.BaseDirectory.TrimEnd('/', '\\'), text);
         }
 
+        private static void Switch()
+        {
+            string text;
+            try
+            {
+                text = Load("/no/such/file", 3, null, "switch");
+            }
+            catch (Exception exception) when (exception.Message.Contains("loaded"))
+            {
+                return; // it is installed in the system
+            }
+            Assert.True(!text.Contains("/no/such/file"), "the variable does not count: " + text);
+            Assert.Contains("where the system looks", text);
+        }
+
+#if NET8_0_OR_GREATER
+        private static void OwnResolver()
+        {
+            var text = Load(Environment.GetEnvironmentVariable("PTLIB_NATIVE_PATH"), 3, null, "own");
+            Assert.Contains("own resolver", text);
+        }
+#endif
+
         /// <summary>A copy of the program, with the library where packages put it.</summary>
         private static void Installed()
         {
@@ -153,7 +196,8 @@ namespace PtLib.Tests
         }
 
         /// <summary>Loads the library in a process with PTLIB_NATIVE_PATH.</summary>
-        private static string Load(string path, int code, string program = null)
+        private static string Load(
+            string path, int code, string program = null, string way = "")
         {
             var host = Process.GetCurrentProcess().MainModule.FileName;
             program = program ?? typeof(LoadingTests).Assembly.Location;
@@ -162,7 +206,8 @@ namespace PtLib.Tests
                 UseShellExecute = false,
                 RedirectStandardOutput = true,
             };
-            start.EnvironmentVariables["PTLIB_NATIVE_PATH"] = path;
+            start.EnvironmentVariables["PTLIB_NATIVE_PATH"] = path ?? string.Empty;
+            start.EnvironmentVariables[Way] = way;
             using (var process = Process.Start(start))
             {
                 var text = process.StandardOutput.ReadToEnd();
