@@ -6,6 +6,7 @@
 //! follow the same rule by the environment variable `PTLIB_TEST_STRICT`.
 
 mod c_programs;
+mod csharp;
 mod steps;
 
 use std::{

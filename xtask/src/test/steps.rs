@@ -1,6 +1,6 @@
 //! The steps of `cargo xtask test`, fast ones first.
 
-use super::c_programs;
+use super::{c_programs, csharp};
 use crate::{
     Result, dist, docs, format, guide, header,
     process::{self, cargo, tool},
@@ -44,6 +44,7 @@ pub(super) const STEPS: &[Step] = &[
     slow("plugins", "plug-ins in C and C++, find_package", &["dist"], c_programs::plugins),
     slow("valgrind", "no invalid access, no leak", &["dist"], c_programs::valgrind),
     slow("sanitizer", "the same by AddressSanitizer", &["dist"], c_programs::sanitizer),
+    slow("csharp", "the C# binding, under each .NET that is here", &["dist"], csharp::csharp),
     // Behind `dist`, which asks rustc about the same package and would have it compiled again.
     slow("bench", "the benchmarks give the right pictures", &[], bench),
     slow("fuzz", "a short run of each fuzz target", &[], fuzz),

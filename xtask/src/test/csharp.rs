@@ -1,0 +1,212 @@
+//! The C# binding: compiled, tested and its samples run, under each .NET that is here.
+//!
+//! The binding has two halves from one source tree: .NET Standard 2.0, which mono compiles and
+//! runs, and .NET 8, which takes a .NET SDK, or a folder with the programs `csc8` and `dotnet8`
+//! that the variable `PTLIB_DOTNET8_TOOLS` names. A half that cannot run is told; that none can is a
+//! missing tool.
+
+use std::{
+    env,
+    ffi::OsString,
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use crate::{
+    Result, dist,
+    process::{self, empty_folder, tool},
+    repository,
+};
+
+/// Names a folder with `csc8` (a C# 12 compiler) and `dotnet8` (a .NET 8 runtime).
+const TOOLS: &str = "PTLIB_DOTNET8_TOOLS";
+
+/// Assemblies of the binding, the first is the library; the others are programs that use it.
+const LIBRARY: &str = "PtLib";
+const TESTS: &str = "PtLib.Tests";
+const RENDER_FILE: &str = "RenderFile";
+const SAMPLES: [&str; 3] = [RENDER_FILE, "TextureClient", "ManagedBlock"];
+
+/// A .NET that is here.
+enum DotNet {
+    Mono { compiler: PathBuf, runtime: PathBuf },
+    Tools(PathBuf),
+    Sdk(PathBuf),
+}
+
+/// Runs whatever can be run.
+pub(super) fn csharp(_: bool) -> Result {
+    let folder = repository::target().join("csharp");
+    empty_folder(&folder)?;
+    let other = other_library(&folder)?;
+    let mut missing = Vec::new();
+    for found in [mono(), dotnet8()] {
+        match found {
+            Ok(all) => {
+                for dotnet in all {
+                    dotnet.check(&folder, &other)?;
+                }
+            }
+            Err(error) => {
+                println!("  not tested: {error}");
+                missing.push(error);
+            }
+        }
+    }
+    if missing.len() > 1 { missing.pop().map_or(Ok(()), Err) } else { Ok(()) }
+}
+
+/// What runs the half for .NET Standard 2.0.
+fn mono() -> Result<Vec<DotNet>> {
+    Ok(vec![DotNet::Mono { compiler: tool("mcs")?, runtime: tool("mono")? }])
+}
+
+/// What runs the half for .NET 8: one of the two at least.
+fn dotnet8() -> Result<Vec<DotNet>> {
+    let tools = env::var_os(TOOLS).map(|folder| DotNet::Tools(repository::root().join(folder)));
+    match (tools, tool("dotnet")) {
+        (None, Err(error)) => Err(error),
+        (tools, sdk) => Ok(tools.into_iter().chain(sdk.ok().map(DotNet::Sdk)).collect()),
+    }
+}
+
+/// A library that says to have another version.
+fn other_library(folder: &Path) -> Result<PathBuf> {
+    let library = folder.join(format!("other{}", env::consts::DLL_SUFFIX));
+    let source = bindings().join(TESTS).join("other_abi.c");
+    let mut command = Command::new(tool("cc")?);
+    command.args(["-shared", "-fPIC", "-o"]).arg(&library).arg(source);
+    process::output(&mut command)?;
+    Ok(library)
+}
+
+fn bindings() -> PathBuf {
+    repository::root().join("bindings/csharp")
+}
+
+fn project(name: &str) -> PathBuf {
+    let samples = bindings().join("samples").join(name);
+    if samples.is_dir() { samples } else { bindings().join(name) }
+}
+
+/// The C# files of a project, in its folder and those below.
+fn sources(name: &str) -> Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    let mut folders = vec![project(name)];
+    while let Some(folder) = folders.pop() {
+        files.extend(repository::files_in(&folder, "cs")?);
+        for entry in fs::read_dir(&folder)? {
+            let path = entry?.path();
+            let is_built = path.ends_with("bin") || path.ends_with("obj");
+            if path.is_dir() && !is_built {
+                folders.push(path);
+            }
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+impl DotNet {
+    const fn name(&self) -> &'static str {
+        match self {
+            Self::Mono { .. } => "mono",
+            Self::Tools(_) => "dotnet8",
+            Self::Sdk(_) => "dotnet",
+        }
+    }
+
+    /// Compiles everything, runs the tests and the samples.
+    fn check(&self, folder: &Path, other: &Path) -> Result {
+        let folder = folder.join(self.name());
+        fs::create_dir_all(&folder)?;
+        self.compile(LIBRARY, &folder)?;
+        self.compile(TESTS, &folder)?;
+        let mut tests = self.program(TESTS, &folder);
+        tests.env("PTLIB_TEST_OTHER_ABI", other);
+        let printed = process::output(&mut tests)?;
+        let last = printed.lines().last().unwrap_or_default();
+        if !last.ends_with(" passed, 0 failed") {
+            return Err(format!("{}: the tests end with \"{last}\"", self.name()).into());
+        }
+        println!("  {}: {last}", self.name());
+        for sample in SAMPLES {
+            self.compile(sample, &folder)?;
+            let mut program = self.program(sample, &folder);
+            if sample == RENDER_FILE {
+                let graph = repository::root().join("examples/graphs/bark.xml");
+                program.arg(graph).args(["bark.png", "64"]);
+            }
+            process::output(program.current_dir(&folder))?;
+            println!("  {}: {sample} runs", self.name());
+        }
+        Ok(())
+    }
+
+    /// Compiles a project; warnings are errors, and every public member has its comment.
+    fn compile(&self, name: &str, folder: &Path) -> Result {
+        let is_library = name == LIBRARY;
+        let mut command = match self {
+            Self::Mono { compiler, .. } => {
+                let mut command = Command::new(compiler);
+                command.args(["-langversion:latest", "-warnaserror"]);
+                if is_library {
+                    command.arg(joined("-doc:", &folder.join("PtLib.xml")));
+                }
+                command
+            }
+            Self::Tools(tools) => {
+                let mut command = Command::new(tools.join("csc8"));
+                command.arg("-warnaserror");
+                if is_library {
+                    command.arg("-nullable");
+                }
+                command
+            }
+            // `dotnet run` compiles.
+            Self::Sdk(_) => return Ok(()),
+        };
+        command.arg("-unsafe").arg(joined("-out:", &self.assembly(name, folder)));
+        if is_library {
+            command.arg("-target:library");
+        } else {
+            command.arg(joined("-r:", &self.assembly(LIBRARY, folder)));
+        }
+        process::output(command.args(sources(name)?))?;
+        Ok(())
+    }
+
+    fn assembly(&self, name: &str, folder: &Path) -> PathBuf {
+        let is_program = name != LIBRARY && matches!(self, Self::Mono { .. });
+        folder.join(format!("{name}.{}", if is_program { "exe" } else { "dll" }))
+    }
+
+    /// A program of the binding, with the library of the tree that the step `dist` made.
+    fn program(&self, name: &str, folder: &Path) -> Command {
+        let tree = dist::Options::default().out;
+        let mut command = match self {
+            Self::Mono { runtime, .. } => Command::new(runtime),
+            Self::Tools(tools) => Command::new(tools.join("dotnet8")),
+            Self::Sdk(dotnet) => {
+                let mut command = Command::new(dotnet);
+                command.args(["run", "--configuration", "Release", "--framework", "net8.0"]);
+                command.arg("--project").arg(project(name)).arg("--");
+                command
+            }
+        };
+        if !matches!(self, Self::Sdk(_)) {
+            command.arg(self.assembly(name, folder));
+        }
+        command.env("PTLIB_NATIVE_PATH", tree.join("lib"));
+        command.env("PTLIB_TEST_PTC", tree.join("bin").join("ptc"));
+        command.env("PTLIB_REPOSITORY", repository::root());
+        command
+    }
+}
+
+fn joined(flag: &str, path: &Path) -> OsString {
+    let mut argument = OsString::from(flag);
+    argument.push(path);
+    argument
+}
