@@ -13,6 +13,8 @@ use std::{
     sync::OnceLock,
 };
 
+use crate::plugins;
+
 /// Programs that end with 0 if everything is as it should be.
 const PROGRAMS: [&str; 9] = [
     "sizes.c",
@@ -137,23 +139,27 @@ fn build_and_run(program: &str, how: &str, arguments: &[&str], under: &[&str]) {
     run(&mut command);
 }
 
-/// A folder with a plug-in, a file that only has the name of one, and a folder with two more: one
-/// in C and one in Rust.
+/// A folder with a plug-in, a file that only has the name of one, and a folder with more: those of
+/// the repository, in C, C++ and Rust, and one of the tests.
 fn plugin_folder() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| {
         let folder = scratch().join("plugin-folder");
         fs::create_dir_all(&folder).unwrap();
-        if let Some(plugin) = crate::plugins::build("points") {
+        if let Some(plugin) = plugins::build("points") {
             fs::copy(plugin, folder.join("points.ptplugin.so")).unwrap();
         }
         fs::write(folder.join("garbage.ptplugin.so"), b"no library").unwrap();
         let more = folder.join("more");
         fs::create_dir_all(&more).unwrap();
-        if let Some(plugin) = crate::plugins::hexagons() {
-            fs::copy(plugin, more.join("hexagons.ptplugin.so")).unwrap();
+        let copy = |plugin: PathBuf| fs::copy(&plugin, more.join(plugin.file_name().unwrap()));
+        for plugin in [plugins::hexagons(), plugins::kuwahara()].into_iter().flatten() {
+            copy(plugin).unwrap();
         }
-        fs::copy(crate::plugins::rust_plugin(), more.join("rust.ptplugin.so")).unwrap();
+        copy(plugins::rust_plugin()).unwrap();
+        for name in ["gradient_noise", "reaction_diffusion"] {
+            copy(plugins::rust_library(&format!("libptlib_{name}.so"), name)).unwrap();
+        }
         folder
     })
 }

@@ -129,8 +129,6 @@ fn files_that_are_no_plugins_are_refused() {
 /// As after an update of one of both sides. The long comparison is for the log.
 #[test]
 fn a_root_module_of_another_layout_is_refused() {
-    // Cargo builds it only if it is used.
-    let _ = std::mem::size_of::<ptlib_test_layout::PluginRoot>();
     let library = rust_library("libptlib_test_layout.so", "layout");
     let engine = Engine::new(EngineOptions::default());
     let said = Arc::new(Mutex::new(Vec::<String>::new()));

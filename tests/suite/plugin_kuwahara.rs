@@ -8,14 +8,14 @@ use ptlib::{
     value::{BufferPool, Value},
 };
 
-use crate::{abi::root, plugins::build_with};
+use crate::{abi::root, plugins::kuwahara};
 
 const KUWAHARA: &str = "kuwahara.anisotropic";
 
 fn engine() -> Option<&'static Engine> {
     static ENGINE: OnceLock<Option<Engine>> = OnceLock::new();
     let make = || {
-        let plugin = build_with("plugins/cpp-kuwahara/kuwahara.cpp", "kuwahara", &[])?;
+        let plugin = kuwahara()?;
         let engine = Engine::new(EngineOptions { cache_bytes: 0, ..Default::default() });
         engine.load_plugin(&plugin).unwrap();
         Some(engine)

@@ -63,6 +63,11 @@ pub(crate) fn hexagons() -> Option<PathBuf> {
     build_with(source, "hexagons", &["-lm"])
 }
 
+/// The plug-in in `plugins/cpp-kuwahara`.
+pub(crate) fn kuwahara() -> Option<PathBuf> {
+    build_with("plugins/cpp-kuwahara/kuwahara.cpp", "kuwahara", &[])
+}
+
 /// The plug-in in Rust, which cargo built with these tests, under the name of a plug-in.
 pub(crate) fn rust_plugin() -> PathBuf {
     rust_library("libptlib_test_plugin.so", "rust")
@@ -221,13 +226,22 @@ fn a_block_that_does_not_hear_that_it_should_stop_is_reported() {
 }
 
 #[test]
-fn numbers_that_are_not_finite_become_0() {
+fn numbers_that_are_not_finite_become_0_and_are_counted() {
     let engine = engine(&rust_plugin());
+    let said = Arc::new(Mutex::new(Vec::<String>::new()));
+    let heard = Arc::clone(&said);
+    let log = move |_, message: &str| heard.lock().unwrap().push(message.to_owned());
+    engine.set_log(Some((LogLevel::Warning, Arc::new(log))));
     let mut graph = engine.new_graph();
     let fail = graph.add("ptlib-rust.fail").unwrap();
     graph.set(fail, "strange", ParamValue::Bool(true)).unwrap();
-    let image = engine.compute(&graph, fail, 0, ComputeOptions::default()).unwrap();
+    let options = ComputeOptions { size: Some((30, 20)), ..ComputeOptions::default() };
+    let image = engine.compute(&graph, fail, 0, options).unwrap();
     assert!(image.channel(0).iter().all(|value| *value == 0.0));
+    let said = said.lock().unwrap();
+    let [report] = &said[..] else { panic!("{said:?}") };
+    assert!(report.contains("gave 600 numbers that are not finite"), "{report}");
+    assert!(report.contains("ptlib-rust.fail"), "{report}");
 }
 
 #[test]
