@@ -19,8 +19,8 @@ impl ContentHash {
 /// give the same bytes.
 pub(super) struct Content(blake3::Hasher);
 
-/// Words that are hashed at a time.
-const PIECE: usize = 1024;
+/// Words that are hashed at a time: the hash takes several of its chunks of 1024 bytes side by side.
+const PIECE: usize = 4096;
 
 impl Content {
     pub(super) fn new(value: &str) -> Self {
@@ -56,7 +56,10 @@ impl Content {
         }
     }
 
+    /// Takes the hash of words in their place. Their own hash starts at a chunk's start, which is what
+    /// lets it take chunks side by side.
     fn raw(&mut self, words: impl Iterator<Item = u32>) {
+        let mut content = blake3::Hasher::new();
         let mut piece = [0; PIECE * size_of::<u32>()];
         let mut words = words.peekable();
         while words.peek().is_some() {
@@ -65,8 +68,9 @@ impl Content {
                 place.copy_from_slice(&word.to_le_bytes());
                 used += size_of::<u32>();
             }
-            self.0.update(&piece[..used]);
+            content.update(&piece[..used]);
         }
+        self.0.update(content.finalize().as_bytes());
     }
 
     pub(super) fn finish(self) -> ContentHash {
