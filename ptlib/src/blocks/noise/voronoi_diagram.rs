@@ -1,13 +1,13 @@
 //! Cells around points: distances to the nearest ones, or one shade a cell.
 //!
-//! Specification 2.1. Distances wrap around, so the diagram tiles wherever its points lie. Where
-//! they lie is [`placement`]'s business; [`Cells`] finds the few that matter for a pixel.
-//! In 8-bit precision the points of figures may lie beyond the image: see [`shown`].
+//! Specification 2.1. Distances wrap around, so the diagram tiles wherever its points lie. Where they
+//! lie is [`placement`]'s business, [`Cells`] finds the few that matter for a pixel. In 8-bit
+//! precision the points of figures may lie beyond the image: see [`shown`].
 // Pictured: `type` `cell color`; or `type` `nearest distance`, `metric` `chebyshev`.
 
 use super::super::drawing::walk::Start;
 use super::voronoi::{
-    Cells, Chebyshev, Euclidean, Measure, Point, Taxicab,
+    Cells, Chebyshev, Euclidean, Measure, Point, Taxicab, Wanted,
     placement::{self, Layout, Places},
     shown,
 };
@@ -116,24 +116,24 @@ impl PointBlock for Voronoi {
             .into_iter()
             .zip(0..)
             .map(|((x, y), i)| {
-                // The shade of a place in pixels changes with the resolution, that of a number
-                // in the list does not. Far from the numbers that the places are drawn from: a
-                // shade must not tell where its point lies.
+                // The shade of a place in pixels changes with the resolution, that of a number does
+                // not. Far from the numbers of places: a shade must not tell where its point lies.
                 let number = i32::wrapping_mul(i, 100_003).wrapping_add(50_021);
                 let sum = convert::low_bits((x + y).cast_unsigned());
                 let index = if L::EIGHT_BIT { sum } else { number };
                 Point::new((x, y), elias::noise(index).abs())
             })
             .collect();
-        let needed = if params.shows == Shows::Ratio { 2 } else { 1 };
+        let nearest = if params.shows == Shows::Ratio { 2 } else { 1 };
+        let all_differ = params.place == Place::Random && !cx.is_connected(TEXT);
+        let wanted = Wanted { nearest, all_differ };
         let cells = match params.metric {
             _ if points.is_empty() => None,
-            Metric::Euclidean => Some(Cells::new::<Euclidean>(&points, needed, cx)?),
-            Metric::Taxicab => Some(Cells::new::<Taxicab>(&points, needed, cx)?),
-            Metric::Chebyshev => Some(Cells::new::<Chebyshev>(&points, needed, cx)?),
+            Metric::Euclidean => Some(Cells::new::<Euclidean>(&points, wanted, cx)?),
+            Metric::Taxicab => Some(Cells::new::<Taxicab>(&points, wanted, cx)?),
+            Metric::Chebyshev => Some(Cells::new::<Chebyshev>(&points, wanted, cx)?),
         };
-        let size = u32::midpoint(cx.width, cx.height);
-        let unit = 5.0 / convert::pixels(size);
+        let unit = 5.0 / convert::pixels(u32::midpoint(cx.width, cx.height));
         Ok(Self { shows: params.shows, metric: params.metric, cells, unit })
     }
 

@@ -115,6 +115,15 @@ impl Measure for Chebyshev {
     }
 }
 
+/// What cells are for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wanted {
+    /// How many nearest points of a pixel are asked for, 1 or 2.
+    pub(super) nearest: usize,
+    /// Whether no two points are known to lie in one place.
+    pub(super) all_differ: bool,
+}
+
 /// For each tile of the image, the points that matter there.
 #[derive(Debug)]
 pub(super) struct Cells {
@@ -147,14 +156,18 @@ impl Cells {
         points * size_of::<Point>() as u64 + lists + building + 12 * tiles
     }
 
-    /// The cells of at least one point, prepared to find the `needed` (1 or 2) nearest ones.
+    /// The cells of at least one point.
     pub(super) fn new<M: Measure>(
         points: &[Point],
-        needed: usize,
+        wanted: Wanted,
         cx: &Context<'_>,
     ) -> Result<Self, Error> {
+        let needed = wanted.nearest;
         let tiles = [cx.width, cx.height].map(|size| (size as usize).div_ceil(SIDE));
-        let distinct = distinct(points, needed);
+        let distinct = match wanted.all_differ {
+            true => (0..).take(points.len()).collect(),
+            false => distinct(points, needed),
+        };
         let candidates = Candidates::of(points, &distinct, needed == 1);
         let torus = Torus { size: [convert::pixels(cx.width), convert::pixels(cx.height)], needed };
         let buckets = Buckets::new(&candidates, tiles, torus);
