@@ -120,9 +120,9 @@ pub(super) fn numbers(
         match stream.id() {
             "normal" => {
                 let recompute = recompute.zip(positions.as_ref());
-                make_unit(stream, recompute.map(|(recompute, positions)| recompute(positions)))?;
+                make_unit(stream, || recompute.map(|(recompute, positions)| recompute(positions)))?;
             }
-            "direction" => make_unit(stream, None)?,
+            "direction" => make_unit(stream, || None)?,
             "tangent" => make_signs(stream)?,
             _ => {}
         }
@@ -150,8 +150,12 @@ fn length(vector: &[f32]) -> f64 {
     vector.iter().map(|number| f64::from(*number) * f64::from(*number)).sum::<f64>().sqrt()
 }
 
-/// Makes every vector one of length 1. Those without a direction become `others`, or an error.
-fn make_unit(stream: &mut Stream, others: Option<Vec<[f64; 3]>>) -> Result<(), Error> {
+/// Makes every vector one of length 1. Those without a direction become those of `others`, which
+/// takes long and is asked only for them, or an error.
+fn make_unit(
+    stream: &mut Stream,
+    others: impl FnOnce() -> Option<Vec<[f64; 3]>>,
+) -> Result<(), Error> {
     let mut is_changed = false;
     let mut too_short = 0_usize;
     for element in stream.floats().all() {
@@ -162,7 +166,7 @@ fn make_unit(stream: &mut Stream, others: Option<Vec<[f64; 3]>>) -> Result<(), E
     if !is_changed {
         return Ok(());
     }
-    let others = others.filter(|_| too_short > 0);
+    let others = if too_short > 0 { others() } else { None };
     if too_short > 0 && others.is_none() {
         let lengths = stream.floats().all().map(length).enumerate();
         let offenders = lengths.filter(|(_, length)| *length < SHORTEST);
