@@ -201,7 +201,7 @@ fn failures_and_panics_become_errors_with_the_name_of_the_block() {
 }
 
 #[test]
-fn a_block_that_does_not_hear_that_it_should_stop_is_reported() {
+fn a_block_that_never_asks_whether_to_stop_is_reported() {
     let Some(plugin) = build("deaf") else { return };
     let engine = engine(&plugin);
     let (cancel, said) = (Cancel::new(), Arc::new(Mutex::new(Vec::<String>::new())));
@@ -221,7 +221,7 @@ fn a_block_that_does_not_hear_that_it_should_stop_is_reported() {
     };
     assert_eq!(compute(cancel).unwrap_err().kind(), ErrorKind::Cancelled);
     let said = said.lock().unwrap();
-    let report = said.iter().find(|message| message.contains("never heard that it should stop"));
+    let report = said.iter().find(|message| message.contains("never asked whether to stop"));
     assert!(report.is_some_and(|report| report.contains("ptlib-test.deaf")), "{said:?}");
 }
 

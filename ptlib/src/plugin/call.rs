@@ -21,7 +21,7 @@ use crate::{
     math::convert::count,
 };
 
-/// A call that takes longer and does not hear that it should stop is reported.
+/// A call that takes longer and does not ask whether to stop is reported.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Memory for plug-ins starts at multiples of this many bytes.
@@ -56,8 +56,8 @@ pub(super) struct Call<'a> {
     pub(super) means: Means<'a>,
     /// The first thing that it said went wrong.
     fault: Mutex<Option<Error>>,
-    /// Whether it asked whether to stop, after that was wanted.
-    has_heard: AtomicBool,
+    /// Whether it ever asked whether to stop.
+    has_asked: AtomicBool,
     scratch: Mutex<Scratch>,
     /// The files that it read.
     read: Mutex<Vec<Arc<[u8]>>>,
@@ -83,7 +83,7 @@ impl<'a> Call<'a> {
         Self {
             means,
             fault: Mutex::new(None),
-            has_heard: AtomicBool::new(false),
+            has_asked: AtomicBool::new(false),
             scratch: Mutex::new(Scratch { pieces: Vec::new(), bytes: 0 }),
             read: Mutex::new(Vec::new()),
         }
@@ -118,17 +118,17 @@ impl<'a> Call<'a> {
     }
 
     /// Reports a function that went on for long though nobody looks at the result any more, and
-    /// never heard of that: whoever cancels waits for it.
+    /// never asked about that: whoever cancels waits for it.
     fn report_deaf(&self, what: &str, started: Instant) {
         let took = started.elapsed();
-        let has_heard = self.has_heard.load(Ordering::Relaxed);
-        if took <= PATIENCE || has_heard || self.means.progress.check().is_ok() {
+        let has_asked = self.has_asked.load(Ordering::Relaxed);
+        if took <= PATIENCE || has_asked || self.means.progress.check().is_ok() {
             return;
         }
         let took = took.as_millis();
         let message = format!(
-            "`{what}` of the plug-in ran for {took} ms and never heard that it should stop: it \
-             has to ask `is_cancelled` every millisecond"
+            "`{what}` of the plug-in ran for {took} ms and never asked whether to stop: it has \
+             to ask `is_cancelled` every millisecond"
         );
         (self.means.tell)(LogLevel::Warning, Error::new(ErrorKind::PluginFailed, message));
     }
@@ -275,9 +275,8 @@ unsafe extern "C" fn is_cancelled(job: *const ptlp_job) -> i32 {
     // SAFETY: the contract.
     let call = unsafe { call_of(job) };
     let is_cancelled = |call: &Call<'_>| {
-        let is_cancelled = call.means.progress.check().is_err();
-        call.has_heard.fetch_or(is_cancelled, Ordering::Relaxed);
-        is_cancelled
+        call.has_asked.store(true, Ordering::Relaxed);
+        call.means.progress.check().is_err()
     };
     guarded(1, || i32::from(call.is_none_or(is_cancelled)))
 }
