@@ -1,0 +1,1 @@
+//! Hair: roots, their ages and colours, strands and their files.

@@ -1,0 +1,1 @@
+//! Heads: read, given frames and coordinates.

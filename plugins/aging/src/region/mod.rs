@@ -1,0 +1,1 @@
+//! Where hair grows, and until which age.

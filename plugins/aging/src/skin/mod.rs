@@ -1,0 +1,1 @@
+//! Normals of height maps, and fine detail.

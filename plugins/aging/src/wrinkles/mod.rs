@@ -1,0 +1,3 @@
+//! Wrinkles as height maps.
+
+pub mod age_height;
