@@ -146,6 +146,9 @@ impl DotNet {
             process::output(program.current_dir(&folder))?;
             println!("  {}: {sample} runs", self.name());
         }
+        if let Self::Sdk(dotnet) = self {
+            packages(dotnet, &folder)?;
+        }
         Ok(())
     }
 
@@ -208,6 +211,46 @@ impl DotNet {
         command.env("PTLIB_REPOSITORY", repository::root());
         command
     }
+}
+
+/// Makes the packages, and a program that knows nothing else of ptlib.
+fn packages(dotnet: &Path, folder: &Path) -> Result {
+    let feed = folder.join("feed");
+    let tree = dist::Options::default().out;
+    let with = |name: &str, path: &Path| joined(&format!("-p:{name}="), path);
+    let runtime = with("NativeRuntime", Path::new(&runtime_id()));
+    for name in [LIBRARY, "PtLib.Native"] {
+        let mut pack = Command::new(dotnet);
+        pack.arg("pack").arg(project(name)).args(["--configuration", "Release"]);
+        pack.arg("--output").arg(&feed).arg(&runtime).arg(with("NativeTree", &tree));
+        process::output(&mut pack)?;
+    }
+    let out = folder.join("packages");
+    let mut build = Command::new(dotnet);
+    build.arg("build").arg(project("PtLib.Packages")).args(["--configuration", "Release"]);
+    build.arg("--output").arg(&out).arg(&runtime).arg(with("PtLibFeed", &feed));
+    process::output(&mut build)?;
+    let mut program = Command::new(dotnet);
+    program.arg(out.join("PtLib.Packages.dll"));
+    program.arg(repository::root().join("examples/graphs/bark.xml")).args(["packages.png", "64"]);
+    process::output(program.current_dir(folder).env_remove("PTLIB_NATIVE_PATH"))?;
+    println!("  dotnet: a program from packages runs");
+    Ok(())
+}
+
+/// What .NET calls this platform.
+fn runtime_id() -> String {
+    let system = match env::consts::OS {
+        "windows" => "win",
+        "macos" => "osx",
+        other => other,
+    };
+    let processor = match env::consts::ARCH {
+        "x86_64" => "x64",
+        "aarch64" => "arm64",
+        other => other,
+    };
+    format!("{system}-{processor}")
 }
 
 fn joined(flag: &str, path: &Path) -> OsString {

@@ -132,7 +132,7 @@ namespace PtLib.Native
                 }
                 return Path.GetFullPath(wanted);
             }
-            foreach (var name in Platform.FileNames)
+            foreach (var name in Platform.FileNamesApart)
             {
                 var file = Path.GetFullPath(Path.Combine(wanted, name));
                 Tried.Add(file);

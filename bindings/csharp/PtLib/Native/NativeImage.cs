@@ -1,5 +1,6 @@
 using System;
 #if !NET8_0_OR_GREATER && !UNITY_5_3_OR_NEWER
+using System.IO;
 using System.Runtime.CompilerServices;
 #endif
 using System.Runtime.InteropServices;
@@ -51,8 +52,9 @@ namespace PtLib.Native
             {
                 if (Platform.IsWindows)
                 {
-                    // A library that is loaded is found by its name from then on.
-                    return LoadLibrary(file);
+                    // A library that is loaded is found by its name from then on, but only by that.
+                    return Path.GetFileNameWithoutExtension(file) == NativeMethods.Library &&
+                        LoadLibrary(file);
                 }
                 if (Platform.IsMono)
                 {

@@ -15,11 +15,14 @@ namespace PtLib.Native
     /// </summary>
     internal static unsafe partial class NativeMethods
     {
-        /// <summary>What the loader is asked for: ptlib.dll, libptlib.so, libptlib.dylib.</summary>
+        /// <summary>
+        /// What the loader is asked for: libptlib.dll, libptlib.so, libptlib.dylib. Not "ptlib":
+        /// on Windows that is this assembly, PtLib.dll, as soon as both lie in one folder.
+        /// </summary>
 #if UNITY_IOS && !UNITY_EDITOR
         internal const string Library = "__Internal"; // linked into the program
 #else
-        internal const string Library = "ptlib";
+        internal const string Library = "libptlib";
 #endif
 
         /// <summary>The PTL_ABI_VERSION that these declarations are of.</summary>

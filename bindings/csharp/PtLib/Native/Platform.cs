@@ -18,11 +18,23 @@ namespace PtLib.Native
         /// <summary>The names that the library may have, the most specific first.</summary>
         internal static readonly string[] FileNames = Names();
 
+        /// <summary>
+        /// The names in a folder that was named for the library. On Windows that of the C library
+        /// is one of them, where libraries are loaded by their paths; beside an assembly it would be
+        /// the assembly, PtLib.dll.
+        /// </summary>
+        internal static readonly string[] FileNamesApart =
+#if NET8_0_OR_GREATER
+            IsWindows ? new[] { FileNames[0], "ptlib.dll" } : FileNames;
+#else
+            FileNames;
+#endif
+
         private static string[] Names()
         {
             if (IsWindows)
             {
-                return new[] { "ptlib.dll" };
+                return new[] { "libptlib.dll" };
             }
             return IsMacOs
                 ? new[] { "libptlib." + NativeMethods.AbiVersion + ".dylib", "libptlib.dylib" }
