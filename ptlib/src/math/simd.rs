@@ -95,6 +95,25 @@ impl SimdLevel {
     }
 }
 
+/// Asks for the memory of `values`, to write it soon. Does nothing where a CPU cannot do that.
+pub fn fetch_to_write(values: &[f32]) {
+    /// Values of a cache line.
+    #[cfg(target_arch = "x86_64")]
+    const LINE: usize = 16;
+    #[cfg(target_arch = "x86_64")]
+    for line in values.chunks(LINE) {
+        // The intrinsic becomes a prefetch for reading unless the whole crate is compiled for CPUs
+        // that have this instruction; those that have not take it for no operation.
+        // SAFETY: a hint about an address, whatever lies there. It changes nothing.
+        unsafe {
+            std::arch::asm!("prefetchw [{}]", in(reg) line.as_ptr(),
+                options(nostack, preserves_flags, readonly));
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = values;
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn run_avx2<K: Kernel>(kernel: K) -> K::Output {

@@ -18,7 +18,7 @@ use super::{
 use crate::{
     block::{InputRows, MAX_INPUTS, OutputRow, PortRow, Progress, RowContext, RowKernel, Store},
     error::Error,
-    math::simd::SimdLevel,
+    math::simd::{self, SimdLevel},
     value::{Image, Plane, Value},
 };
 
@@ -191,6 +191,7 @@ impl StageRows<'_> {
                 let cx = RowContext { x, y, width, height, progress: means.monitor };
                 let segment = Segment { cx, len };
                 let offset = row as usize * width as usize + x as usize;
+                fetch_next(strip, offset, len);
                 for (number, strange) in strange.iter().enumerate() {
                     *at = Some(number);
                     let is_root = number + 1 == self.members.len();
@@ -292,6 +293,15 @@ impl StageRows<'_> {
             }
             sink.put(means.precision, row, &planes[..handed.planes]);
         }
+    }
+}
+
+/// Has the part of the stored planes that the next segment writes on its way meanwhile: a long
+/// chain of blocks would wait for it, while the memory has nothing to do.
+fn fetch_next(strip: &Strip<'_>, offset: usize, len: usize) {
+    for plane in &strip.stored {
+        let next = plane.get(offset + len..).unwrap_or_default();
+        simd::fetch_to_write(&next[..next.len().min(len)]);
     }
 }
 
