@@ -207,6 +207,9 @@ struct ptlp_entry;
 /** For ptl_abi_sizeof(): ptl_scan_report. */
 #define PTL_STRUCT_SCAN_REPORT 16
 
+/** For ptl_abi_sizeof(): ptl_band. */
+#define PTL_STRUCT_BAND 17
+
 /**
  * The version of the header's functions and structs. A library serves every program that was
  * built for the same number; within it, functions and fields are only added. It is also the
@@ -471,9 +474,9 @@ typedef struct ptl_progress {
  * Called with how far a computation is; a nonzero result cancels it.
  *
  * It is called only on the thread that is inside ptl_graph_compute(), ptl_graph_compute_into(),
- * ptl_graph_write_files() or ptl_job_wait(), at most every progress_interval_ms and once at the
- * end. It may call any function of this library. `progress` is valid during the call. No C++ or
- * other exception may leave it.
+ * ptl_graph_compute_bands(), ptl_graph_write_files() or ptl_job_wait(), at most every
+ * progress_interval_ms and once at the end. It may call any function of this library. `progress`
+ * is valid during the call. No C++ or other exception may leave it.
  */
 typedef int32_t (PTL_CALL *ptl_progress_fn)(const ptl_progress *progress, void *user_data);
 
@@ -517,6 +520,36 @@ typedef struct ptl_compute_options {
     /** Must be NULL. */
     void *reserved1;
 } ptl_compute_options;
+
+/** Rows of a result that are done: see ptl_graph_compute_bands(). */
+typedef struct ptl_band {
+    /** Size of this struct in bytes. */
+    uint32_t struct_size;
+    /** The number of the first row in the result, from the top. */
+    uint32_t first_row;
+    /** How many rows there are. */
+    uint32_t rows;
+    /** Pixels of a row. */
+    uint32_t width;
+    /** One of PTL_FORMAT_..., never PTL_FORMAT_AUTO. */
+    ptl_format format;
+    /** 0. */
+    uint32_t reserved0;
+    /** Bytes from one row to the next. */
+    size_t row_stride;
+    /** The pixels: rows * row_stride bytes, rows without gaps. */
+    const void *pixels;
+} ptl_band;
+
+/**
+ * Called with one band of a result after the other, from the top to the bottom; a nonzero result
+ * cancels the computation.
+ *
+ * It is called only on the thread that is inside ptl_graph_compute_bands(). It may call any
+ * function of this library. `band` and its pixels are valid during the call. No C++ or other
+ * exception may leave it.
+ */
+typedef int32_t (PTL_CALL *ptl_band_fn)(const ptl_band *band, void *user_data);
 
 /** What an image is. */
 typedef struct ptl_image_info {
@@ -1590,6 +1623,31 @@ PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_graph_compute_into(
     void *pixels,
     size_t size,
     size_t row_stride,
+    ptl_error **error);
+
+/**
+ * Computes one output of a block and hands it to `on_band` in bands of `band_rows` rows (0: as
+ * many as serve well; the last band may have fewer), from the top to the bottom. The result is
+ * never in memory as a whole, so it may be larger than that: an image of 16384 x 16384 passes
+ * through some 10 MiB, unless its blocks have to keep whole images. `options` may be NULL.
+ *
+ * Ownership: pixels are valid during the call of `on_band`. Nothing of `options` is kept.
+ * Threads:   any; several computations of one graph may run at once. Callbacks run on the calling
+ *            thread only.
+ * Cancel:    as ptl_graph_compute(), and a nonzero result of `on_band`.
+ * Errors:    as ptl_graph_compute(). Bands may have been handed over before; with
+ *            PTL_COMPUTE_KEEP_GOING, a white image stands for a block from the band on in which it
+ *            fails.
+ * Since:     0.1
+ */
+PTL_API PTL_MUST_USE ptl_status PTL_CALL ptl_graph_compute_bands(
+    const ptl_graph *graph,
+    ptl_block block,
+    uint32_t out_port,
+    const ptl_compute_options *options,
+    uint32_t band_rows,
+    ptl_band_fn on_band,
+    void *user_data,
     ptl_error **error);
 
 /**

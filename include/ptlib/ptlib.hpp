@@ -411,6 +411,24 @@ private:
     std::exception_ptr thrown_;
 };
 
+/// Carries bands to a function of the caller, and what it throws back.
+template <class OnBand>
+struct band_taker {
+    OnBand &on_band;
+    std::exception_ptr thrown;
+
+    static std::int32_t PTL_CALL take(const ptl_band *band, void *user_data) noexcept
+    {
+        auto *self = static_cast<band_taker *>(user_data);
+        try {
+            return self->on_band(*band) ? 0 : 1;
+        } catch (...) {
+            self->thrown = std::current_exception();
+            return 1;
+        }
+    }
+};
+
 } // namespace detail
 
 /// A computation on a thread of its own. Its end cancels it.
@@ -740,6 +758,26 @@ public:
         ptl_error *reason = nullptr;
         const ptl_status status = ptl_graph_compute_into(handle_.get(), block, output, &prepared,
                                                          pixels, size, row_stride, &reason);
+        finish(watcher, status, reason);
+    }
+
+    /// Computes and hands the result to `on_band(const ptl_band &)`, band by band from the top; it
+    /// returns whether to go on, and may throw. 0 rows: as many as serve well.
+    template <class OnBand>
+    void compute_bands(ptl_block block, OnBand &&on_band, const compute_options &options = {},
+                       std::uint32_t band_rows = 0, std::uint32_t output = 0) const
+    {
+        detail::watcher watcher(options.progress);
+        const ptl_compute_options prepared = watcher.prepare(options);
+        detail::band_taker<std::remove_reference_t<OnBand>> taker{on_band, nullptr};
+        ptl_error *reason = nullptr;
+        const ptl_status status =
+            ptl_graph_compute_bands(handle_.get(), block, output, &prepared, band_rows,
+                                    &decltype(taker)::take, &taker, &reason);
+        if (taker.thrown) {
+            const detail::error_owner owned(reason);
+            std::rethrow_exception(taker.thrown);
+        }
         finish(watcher, status, reason);
     }
 

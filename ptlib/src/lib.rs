@@ -26,5 +26,5 @@ pub use graph::{BlockId, Graph};
 pub use io::Reading;
 pub use limits::Limits;
 pub use math::levels::Precision;
-pub use run::{Cancel, ComputeOptions, Engine, EngineOptions, PixelsMut};
+pub use run::{Band, Bands, Cancel, ComputeOptions, Engine, EngineOptions, PixelsMut};
 pub use value::{Format, Image, Pixels};

@@ -109,6 +109,45 @@ static void pixels(void)
     EXPECT(PTL_E_NOT_FOUND, ptl_graph_compute(graph, source, 2, NULL, &image, &error));
 }
 
+typedef struct rows {
+    uint32_t next;
+    int calls, cancel_at;
+} rows;
+
+static int32_t take(const ptl_band *band, void *user_data)
+{
+    rows *taken = (rows *)user_data;
+    const float *pixels = (const float *)band->pixels;
+    uint32_t i;
+    CHECK(band->struct_size == sizeof *band && band->reserved0 == 0);
+    CHECK(band->first_row == taken->next && band->width == 4);
+    CHECK(band->format == PTL_FORMAT_GREY_F32 && band->row_stride == 16);
+    for (i = 0; i < band->rows * band->width; i++) CHECK(pixels[i] == 0.5f);
+    taken->next += band->rows;
+    return ++taken->calls == taken->cancel_at;
+}
+
+static void bands(void)
+{
+    ptl_compute_options options;
+    rows taken = {0, 0, 0};
+
+    PTL_COMPUTE_OPTIONS_INIT(&options);
+    options.width = 4;
+    options.height = 7;
+    OK(ptl_graph_compute_bands(graph, source, 0, &options, 3, take, &taken, &error));
+    CHECK(taken.next == 7 && taken.calls == 3);
+    memset(&taken, 0, sizeof taken);
+    taken.cancel_at = 2;
+    EXPECT_MESSAGE(PTL_E_CANCELLED, "at row 3",
+                   ptl_graph_compute_bands(graph, source, 0, &options, 3, take, &taken, &error));
+    CHECK(taken.next == 6);
+    EXPECT(PTL_E_INVALID_ARGUMENT,
+           ptl_graph_compute_bands(graph, source, 0, &options, 3, NULL, NULL, &error));
+    EXPECT(PTL_E_TYPE_MISMATCH,
+           ptl_graph_compute_bands(graph, source, 1, &options, 3, take, &taken, &error));
+}
+
 static void progress_on_this_thread(void)
 {
     watch w;
@@ -264,6 +303,7 @@ int main(void)
     OK(ptl_graph_connect(graph, slow, 0, invert, 0, &error));
     OK(ptl_graph_connect(graph, invert, 0, end, 0, &error));
     pixels();
+    bands();
     progress_on_this_thread();
     cancel_in_callback(1);
     cancel_in_callback(3);

@@ -22,6 +22,7 @@ ASSERT(graph_info, sizeof(ptl_graph_info) == 32);
 ASSERT(param_info, sizeof(ptl_param_info) == 152);
 ASSERT(port_info, sizeof(ptl_port_info) == 32);
 ASSERT(fault, sizeof(ptl_fault) == 40);
+ASSERT(band, sizeof(ptl_band) == 40);
 ASSERT(cancel_offset, offsetof(ptl_compute_options, cancel) == 88);
 ASSERT(region_offset, offsetof(ptl_compute_options, region) == 40);
 ASSERT(ids_offset, offsetof(ptl_param_info, enum_ids) == 128);

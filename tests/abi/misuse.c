@@ -79,6 +79,8 @@ static void null_handles(void)
     CHECK(image == NULL);
     REFUSED("`graph` is NULL",
             ptl_graph_compute_into(NULL, end, 0, NULL, &value, sizeof value, 0, &error));
+    REFUSED("`graph` is NULL",
+            ptl_graph_compute_bands(NULL, end, 0, NULL, 0, NULL, NULL, &error));
     REFUSED("`graph` is NULL", ptl_graph_compute_start(NULL, end, 0, NULL, &job, &error));
     CHECK(job == NULL);
     REFUSED("`graph` is NULL", ptl_graph_write_files(NULL, NULL, &error));

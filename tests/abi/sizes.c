@@ -21,6 +21,7 @@ int main(void)
     CHECK(ptl_abi_sizeof(PTL_STRUCT_TEXT_DATA) == sizeof(ptl_text_data));
     CHECK(ptl_abi_sizeof(PTL_STRUCT_IMAGE_DATA) == sizeof(ptl_image_data));
     CHECK(ptl_abi_sizeof(PTL_STRUCT_SCAN_REPORT) == sizeof(ptl_scan_report));
-    CHECK(ptl_abi_sizeof(0) == 0 && ptl_abi_sizeof(17) == 0);
+    CHECK(ptl_abi_sizeof(PTL_STRUCT_BAND) == sizeof(ptl_band));
+    CHECK(ptl_abi_sizeof(0) == 0 && ptl_abi_sizeof(18) == 0);
     return 0;
 }

@@ -125,6 +125,13 @@ static void pixels(const ptlib::graph &graph, ptl_block block)
     options.format = PTL_FORMAT_GREY8;
     graph.compute_into(block, options, bytes.data(), bytes.size());
     CHECK(bytes[29] == 128);
+    std::uint32_t rows = 0;
+    const auto take = [&](const ptl_band &band) {
+        rows += band.rows;
+        if (rows > 4) throw enough{static_cast<int>(rows)};
+        return true;
+    };
+    CHECK(thrown<enough>([&] { graph.compute_bands(block, take, options, 2); }).number == 5);
 }
 
 static void callbacks(ptlib::graph &graph)

@@ -11,6 +11,7 @@ namespace PtLib.Tests
         {
             runner.Run("compute: the pictures of the command in Rust", Golden);
             runner.Run("compute: into memory of the caller", Into);
+            runner.Run("compute: band by band", Bands);
             runner.Run("compute: formats, rows and copies", Formats);
             runner.Run("compute: options", Options);
             runner.Run("compute: a job", Jobs);
@@ -109,6 +110,44 @@ namespace PtLib.Tests
                     Status.BufferTooSmall, () => graph.ComputeInto(end, new byte[5], options));
                 Assert.Fails(
                     Status.InvalidArgument, () => graph.ComputeInto(end, default(byte[]), options));
+            }
+        }
+
+        private static void Bands()
+        {
+            using (var engine = new Engine())
+            using (var graph = engine.CreateGraph())
+            {
+                var end = GraphTests.Build(graph);
+                var options = new ComputeOptions { Format = PixelFormat.Rgb8 };
+                var all = new byte[64 * 64 * 3];
+                var next = 0;
+                graph.ComputeBands(
+                    end,
+                    band =>
+                    {
+                        Assert.Equal(next, band.FirstRow);
+                        Assert.Equal(64, band.Width);
+                        Assert.Equal(PixelFormat.Rgb8, band.Format);
+                        var bytes = band.ToArray();
+                        bytes.CopyTo(all, next * band.RowStride);
+                        next += band.Rows;
+                        return true;
+                    },
+                    options,
+                    30);
+                Assert.Equal(64, next);
+                using (var image = graph.Compute(end, options))
+                {
+                    Assert.Same(image.ToArray(), all);
+                }
+                Assert.Throws<OperationCanceledException>(
+                    () => graph.ComputeBands(end, band => false, options));
+                Assert.Throws<FormatException>(
+                    () => graph.ComputeBands(end, band => { throw new FormatException(); }));
+                Band kept = null;
+                graph.ComputeBands(end, band => { kept = band; return true; });
+                Assert.Throws<ObjectDisposedException>(() => kept.ToArray());
             }
         }
 

@@ -169,6 +169,54 @@ namespace PtLib
             }
         }
 
+        /// <summary>
+        /// Computes an output of a block and hands it over band by band, from the top to the
+        /// bottom. The result is never in memory as a whole, so it may be larger than that.
+        /// </summary>
+        /// <param name="block">The block.</param>
+        /// <param name="onBand">Gets each band, on this thread, and returns whether to go on. What
+        /// it throws ends the computation and comes out of here.</param>
+        /// <param name="options">How; null: as the graph and the engine say.</param>
+        /// <param name="bandRows">Rows of a band; 0: as many as serve well.</param>
+        /// <param name="progress">As in <see cref="Compute"/>.</param>
+        /// <param name="cancellationToken">As in <see cref="Compute"/>.</param>
+        /// <param name="output">The number of the output.</param>
+        /// <exception cref="PtLibException">The status says what is wrong.</exception>
+        /// <exception cref="OperationCanceledException">It was cancelled, or
+        /// <paramref name="onBand"/> returned false.</exception>
+        public void ComputeBands(
+            Block block,
+            Func<Band, bool> onBand,
+            [AllowNull] ComputeOptions options = null,
+            int bandRows = 0,
+            [AllowNull] IProgress<double> progress = null,
+            CancellationToken cancellationToken = default(CancellationToken),
+            int output = 0)
+        {
+            if (onBand == null)
+            {
+                throw new ArgumentNullException(nameof(onBand));
+            }
+            IntPtr error;
+            using (var graph = handle.Use())
+            using (var watcher = new Watcher(progress, cancellationToken))
+            using (var taker = new BandTaker(onBand))
+            {
+                var native = watcher.Prepare(options);
+                var status = NativeMethods.ptl_graph_compute_bands(
+                    graph.Pointer,
+                    Own(block, nameof(block)),
+                    Number.Unsigned(output, nameof(output)),
+                    &native,
+                    Number.Unsigned(bandRows, nameof(bandRows)),
+                    Callbacks.Band,
+                    taker.UserData,
+                    &error);
+                taker.Rethrow(error);
+                watcher.Check(status, error);
+            }
+        }
+
         /// <summary>Computes an output of a block into an array.</summary>
         /// <typeparam name="T">A number: byte, ushort, float, or a struct of them.</typeparam>
         /// <param name="block">The block.</param>

@@ -10,15 +10,17 @@ use super::{
     graph_settings::precision_of,
     handle::{Handle, NewHandle, Tagged, tagged},
     image::ImageObject,
-    ptl_block, ptl_cancel, ptl_compute_options, ptl_error, ptl_format, ptl_graph, ptl_image,
-    ptl_progress, ptl_progress_fn, ptl_status,
+    ptl_band, ptl_band_fn, ptl_block, ptl_cancel, ptl_compute_options, ptl_error, ptl_format,
+    ptl_graph, ptl_image, ptl_progress, ptl_progress_fn, ptl_status,
     structs::{In, Uninitialised},
 };
 use crate::{
     error::{Error, ErrorKind},
     graph::{BlockId, Graph},
     math::levels::Precision,
-    run::{Cancel, ComputeOptions, PixelsMut, ProgressFn, ProgressReport},
+    run::{
+        Band, Bands, Cancel, ComputeOptions, OutputShape, PixelsMut, ProgressFn, ProgressReport,
+    },
     value::{Format, Value},
 };
 
@@ -69,6 +71,37 @@ impl Callback {
         let progress = progress_of(report);
         // SAFETY: the caller's function, with the pointer that it was given for.
         unsafe { (self.function)(&raw const progress, self.user_data) == 0 }
+    }
+}
+
+/// The caller's function that takes bands.
+#[derive(Debug, Clone, Copy)]
+struct BandCallback {
+    function: unsafe extern "C" fn(*const ptl_band, *mut c_void) -> i32,
+    user_data: *mut c_void,
+}
+
+impl BandCallback {
+    /// Hands a band over.
+    fn call(self, band: &Band<'_>) -> Result<(), Error> {
+        let given = ptl_band {
+            struct_size: u32::try_from(size_of::<ptl_band>()).unwrap_or_default(),
+            first_row: band.first_row,
+            rows: band.rows,
+            width: band.width,
+            format: band.format as ptl_format,
+            reserved0: 0,
+            row_stride: band.stride(),
+            pixels: band.pixels.as_ptr().cast(),
+        };
+        // SAFETY: the caller's function, with the pointer that it was given for.
+        match unsafe { (self.function)(&raw const given, self.user_data) } {
+            0 => Ok(()),
+            _ => Err(Error::new(
+                ErrorKind::Cancelled,
+                format!("`on_band` cancelled the computation at row {}", band.first_row),
+            )),
+        }
     }
 }
 
@@ -246,7 +279,8 @@ impl Request {
         })
     }
 
-    fn write_into(&self, pixels: &mut [u8], stride: usize) -> Result<(), Error> {
+    /// The size of the result, and the format of its pixels.
+    fn shape(&self) -> Result<(OutputShape, Format), Error> {
         let asked = self.settings.to_options(None, None);
         let shape =
             self.engine.engine.output_shape(&self.graph, self.block, self.output, &asked)?;
@@ -254,6 +288,22 @@ impl Request {
             Some(format) => format,
             None => self.automatic(shape.planes)?,
         };
+        Ok((shape, format))
+    }
+
+    /// Hands the result over band by band.
+    fn deliver(&self, rows: u32, to: BandCallback) -> Result<(), Error> {
+        let (_, format) = self.shape()?;
+        let mut tell = self.settings.callback.map(teller);
+        let tell = tell.as_mut().map(|tell| tell as &mut ProgressFn<'_>);
+        let options = self.settings.to_options(self.settings.cancel.clone(), tell);
+        let mut deliver = |band: &Band<'_>| to.call(band);
+        let bands = Bands { format, rows, deliver: &mut deliver };
+        self.engine.engine.compute_bands(&self.graph, self.block, self.output, options, bands)
+    }
+
+    fn write_into(&self, pixels: &mut [u8], stride: usize) -> Result<(), Error> {
+        let (shape, format) = self.shape()?;
         let stride = match stride {
             0 => shape.width as usize * format.bytes_per_pixel(),
             stride => stride,
@@ -346,6 +396,40 @@ pub unsafe extern "C" fn ptl_graph_compute_into(
     pt_fn!(error; graph: Handle<ptl_graph>, options: In<ptl_compute_options>,
         pixels: &mut [u8] = (pixels, size) => {
         Request::new(&graph, block, out_port, &options.0)?.write_into(pixels, row_stride)
+    })
+}
+
+/// Computes one output of a block and hands it to `on_band` in bands of `band_rows` rows (0: as
+/// many as serve well; the last band may have fewer), from the top to the bottom. The result is
+/// never in memory as a whole, so it may be larger than that: an image of 16384 x 16384 passes
+/// through some 10 MiB, unless its blocks have to keep whole images. `options` may be NULL.
+///
+/// Ownership: pixels are valid during the call of `on_band`. Nothing of `options` is kept.
+/// Threads:   any; several computations of one graph may run at once. Callbacks run on the calling
+///            thread only.
+/// Cancel:    as ptl_graph_compute(), and a nonzero result of `on_band`.
+/// Errors:    as ptl_graph_compute(). Bands may have been handed over before; with
+///            PTL_COMPUTE_KEEP_GOING, a white image stands for a block from the band on in which it
+///            fails.
+/// Since:     0.1
+#[must_use]
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn ptl_graph_compute_bands(
+    graph: *const ptl_graph,
+    block: ptl_block,
+    out_port: u32,
+    options: *const ptl_compute_options,
+    band_rows: u32,
+    on_band: ptl_band_fn,
+    user_data: *mut c_void,
+    error: *mut *mut ptl_error,
+) -> ptl_status {
+    pt_fn!(error; graph: Handle<ptl_graph>, options: In<ptl_compute_options> => {
+        let Some(function) = on_band else {
+            return Err(Error::new(ErrorKind::InvalidArgument, "`on_band` is NULL"));
+        };
+        let to = BandCallback { function, user_data };
+        Request::new(&graph, block, out_port, &options.0)?.deliver(band_rows, to)
     })
 }
 

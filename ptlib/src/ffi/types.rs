@@ -124,11 +124,42 @@ pub struct ptl_progress {
 /// Called with how far a computation is; a nonzero result cancels it.
 ///
 /// It is called only on the thread that is inside ptl_graph_compute(), ptl_graph_compute_into(),
-/// ptl_graph_write_files() or ptl_job_wait(), at most every progress_interval_ms and once at the
-/// end. It may call any function of this library. `progress` is valid during the call. No C++ or
-/// other exception may leave it.
+/// ptl_graph_compute_bands(), ptl_graph_write_files() or ptl_job_wait(), at most every
+/// progress_interval_ms and once at the end. It may call any function of this library. `progress`
+/// is valid during the call. No C++ or other exception may leave it.
 pub type ptl_progress_fn =
     Option<unsafe extern "C" fn(progress: *const ptl_progress, user_data: *mut c_void) -> i32>;
+
+/// Rows of a result that are done: see ptl_graph_compute_bands().
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct ptl_band {
+    /// Size of this struct in bytes.
+    pub struct_size: u32,
+    /// The number of the first row in the result, from the top.
+    pub first_row: u32,
+    /// How many rows there are.
+    pub rows: u32,
+    /// Pixels of a row.
+    pub width: u32,
+    /// One of PTL_FORMAT_..., never PTL_FORMAT_AUTO.
+    pub format: ptl_format,
+    /// 0.
+    pub reserved0: u32,
+    /// Bytes from one row to the next.
+    pub row_stride: usize,
+    /// The pixels: rows * row_stride bytes, rows without gaps.
+    pub pixels: *const c_void,
+}
+
+/// Called with one band of a result after the other, from the top to the bottom; a nonzero result
+/// cancels the computation.
+///
+/// It is called only on the thread that is inside ptl_graph_compute_bands(). It may call any
+/// function of this library. `band` and its pixels are valid during the call. No C++ or other
+/// exception may leave it.
+pub type ptl_band_fn =
+    Option<unsafe extern "C" fn(band: *const ptl_band, user_data: *mut c_void) -> i32>;
 
 /// Called with messages for the log: see ptl_engine_set_log(). `level` is one of PTL_LOG_...,
 /// `message` is UTF-8 and valid during the call. No C++ or other exception may leave it.
@@ -412,6 +443,8 @@ pub const PTL_STRUCT_TEXT_DATA: u32 = 14;
 pub const PTL_STRUCT_IMAGE_DATA: u32 = 15;
 /// For ptl_abi_sizeof(): ptl_scan_report.
 pub const PTL_STRUCT_SCAN_REPORT: u32 = 16;
+/// For ptl_abi_sizeof(): ptl_band.
+pub const PTL_STRUCT_BAND: u32 = 17;
 
 // SAFETY: as the head of this file says; `abi_sizes_are_stable` adds up the fields.
 unsafe impl CStruct for ptl_progress {

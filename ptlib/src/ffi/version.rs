@@ -82,6 +82,7 @@ pub extern "C" fn ptl_abi_sizeof(struct_id: u32) -> usize {
         PTL_STRUCT_TEXT_DATA => size_of::<values::ptl_text_data>(),
         PTL_STRUCT_IMAGE_DATA => size_of::<values::ptl_image_data>(),
         PTL_STRUCT_SCAN_REPORT => size_of::<ptl_scan_report>(),
+        PTL_STRUCT_BAND => size_of::<ptl_band>(),
         _ => 0,
     })
 }

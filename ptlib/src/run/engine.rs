@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    ComputeOptions, EngineOptions, OutputShape, PixelsMut, ProgressFn, ProgressReport,
+    Bands, ComputeOptions, EngineOptions, OutputShape, PixelsMut, ProgressFn, ProgressReport,
     cache::Cache,
     execute::{Execution, Means},
     files::GraphFiles,
@@ -14,7 +14,7 @@ use super::{
     monitor::Monitor,
     nodes::{self, Node, Purpose},
     plan::{Handover, Plan, Sizes, Wanted},
-    sink::Sink,
+    sink::{self, Sink},
     threads::Threads,
 };
 use crate::{
@@ -136,7 +136,7 @@ impl Engine {
         output: u32,
         options: ComputeOptions<'_>,
     ) -> Result<Value, Error> {
-        let mut values = self.0.compute(graph, &[(block, output)], options, None)?;
+        let mut values = self.0.compute(graph, &[(block, output)], options, Destination::Values)?;
         values.pop().ok_or_else(|| Error::new(ErrorKind::Internal, "the plan gave no value"))
     }
 
@@ -153,7 +153,28 @@ impl Engine {
         options: ComputeOptions<'_>,
         target: PixelsMut<'_>,
     ) -> Result<(), Error> {
-        self.0.compute(graph, &[(block, output)], options, Some(target)).map(drop)
+        let to = Destination::Pixels(target);
+        self.0.compute(graph, &[(block, output)], options, to).map(drop)
+    }
+
+    /// Computes one output of one block and delivers it band by band, from the top to the bottom:
+    /// an image of any size passes through a few mebibytes, if the blocks do not have to keep it.
+    ///
+    /// With `keep_going`, a white image stands for a block that fails from the band on in which it
+    /// fails: what was delivered before stays.
+    ///
+    /// # Errors
+    /// As [`compute`](Self::compute), and that of the function that takes the bands.
+    pub fn compute_bands(
+        &self,
+        graph: &Graph,
+        block: BlockId,
+        output: u32,
+        options: ComputeOptions<'_>,
+        bands: Bands<'_>,
+    ) -> Result<(), Error> {
+        let to = Destination::Bands(bands);
+        self.0.compute(graph, &[(block, output)], options, to).map(drop)
     }
 
     /// Computes all results of a graph (its `end` blocks, in file order), and lets its `save file`
@@ -176,7 +197,7 @@ impl Engine {
         if wanted.is_empty() {
             return graph.main_result().map(|_| Vec::new());
         }
-        let values = self.0.compute(graph, &wanted, options, None)?;
+        let values = self.0.compute(graph, &wanted, options, Destination::Values)?;
         let mut images = values.into_iter().filter_map(|value| match value {
             Value::Image(image) => Some(image),
             _ => None,
@@ -212,6 +233,16 @@ impl Engine {
             None => Err(graph.at(block, no_output(output))),
         }
     }
+}
+
+/// Where results go.
+enum Destination<'a> {
+    /// To the caller, as values.
+    Values,
+    /// The only one, into pixels of the caller.
+    Pixels(PixelsMut<'a>),
+    /// The only one, to a function of the caller.
+    Bands(Bands<'a>),
 }
 
 /// What holds for one computation: the graph's settings with the options applied.
@@ -294,24 +325,30 @@ impl Inner {
         Err(graph.at(id, Error::new(ErrorKind::Internal, "has no parameter that names a file")))
     }
 
-    /// Computes the wanted outputs: as values, or the only one into `target`.
+    /// Computes the wanted outputs.
     fn compute(
         &self,
         graph: &Graph,
         wanted: &[(BlockId, u32)],
         mut options: ComputeOptions<'_>,
-        target: Option<PixelsMut<'_>>,
+        to: Destination<'_>,
     ) -> Result<Vec<Value>, Error> {
         let settings = self.settings(graph, &options)?;
         let files = self.files(graph);
         let ids: Vec<BlockId> = wanted.iter().map(|(id, _)| *id).collect();
         let (nodes, failures) = settings.resolve(graph, &ids, options.keep_going, &files)?;
         let wanted = find_wanted(graph, &nodes, wanted)?;
-        let handover = if target.is_some() { Handover::Rows } else { Handover::Value };
-        let plan = Plan::new(nodes, wanted, settings.sizes, handover, &self.cache)?;
+        let handover = match to {
+            Destination::Values => Handover::Value,
+            Destination::Pixels(_) | Destination::Bands(_) => Handover::Rows,
+        };
+        let mut plan = Plan::new(nodes, wanted, settings.sizes, handover, &self.cache)?;
+        if let Destination::Bands(bands) = &to {
+            plan.peak_bytes += sink::band_bytes(bands, settings.sizes.result);
+        }
         let memory_bytes = options.memory_bytes.unwrap_or(self.options.limits.memory_bytes);
         plan.check_memory(memory_bytes)?;
-        let mut sinks = self.sinks(&plan, target)?;
+        let mut sinks = self.sinks(&plan, to)?;
         let first = plan.nodes[plan.wanted[0].node].id;
         // A closure of its own lets the monitor borrow it for as long as the locals live.
         let mut tell =
@@ -349,23 +386,29 @@ impl Inner {
     }
 
     /// One sink for each wanted output; those that are given as stored get none of the rows.
-    fn sinks<'a>(
-        &self,
-        plan: &Plan<'_>,
-        target: Option<PixelsMut<'a>>,
-    ) -> Result<Vec<Sink<'a>>, Error> {
+    fn sinks<'a>(&self, plan: &Plan<'_>, to: Destination<'a>) -> Result<Vec<Sink<'a>>, Error> {
         let (width, height) = plan.sizes.result;
         let supersampling = plan.sizes.supersampling;
-        if let Some(target) = target {
+        let planes = || {
             let wanted = &plan.wanted[0];
             let output = &plan.nodes[wanted.node].outputs[wanted.output];
             if output.kind != Kind::Image {
                 let message = format!("the output gives a {}, not an image", output.kind.name());
                 return Err(Error::new(ErrorKind::TypeMismatch, message));
             }
-            target.check(width, height)?;
-            let target = (target.format, target.pixels, target.stride);
-            return Ok(vec![Sink::pixels(target, width, output.planes, supersampling)]);
+            Ok(output.planes)
+        };
+        match to {
+            Destination::Values => {}
+            Destination::Pixels(target) => {
+                let planes = planes()?;
+                target.check(width, height)?;
+                let target = (target.format, target.pixels, target.stride);
+                return Ok(vec![Sink::pixels(target, width, planes, supersampling)]);
+            }
+            Destination::Bands(bands) => {
+                return Ok(vec![Sink::bands(bands, (width, height), planes()?, supersampling)?]);
+            }
         }
         let sink = |wanted: &Wanted| {
             let output = &plan.nodes[wanted.node].outputs[wanted.output];

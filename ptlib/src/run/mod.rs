@@ -30,5 +30,6 @@ pub use cancel::Cancel;
 pub use engine::Engine;
 pub use log::{LogFn, LogLevel};
 pub use options::{
-    ComputeOptions, EngineOptions, OutputShape, PixelsMut, ProgressFn, ProgressReport,
+    Band, BandFn, Bands, ComputeOptions, EngineOptions, OutputShape, PixelsMut, ProgressFn,
+    ProgressReport,
 };

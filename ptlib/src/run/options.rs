@@ -125,6 +125,42 @@ pub struct OutputShape {
     pub planes: usize,
 }
 
+/// Rows of a result that are done.
+#[derive(Debug)]
+pub struct Band<'a> {
+    /// The number of the first of them in the result, from the top.
+    pub first_row: u32,
+    /// How many there are.
+    pub rows: u32,
+    /// Pixels of a row.
+    pub width: u32,
+    /// The format of a pixel.
+    pub format: Format,
+    /// The pixels, rows without gaps.
+    pub pixels: &'a [u8],
+}
+
+impl Band<'_> {
+    /// Bytes of a row.
+    #[must_use]
+    pub fn stride(&self) -> usize {
+        self.width as usize * self.format.bytes_per_pixel()
+    }
+}
+
+/// Called with one band after the other, from the top to the bottom; an error ends the computation.
+pub type BandFn<'a> = dyn FnMut(&Band<'_>) -> Result<(), Error> + 'a;
+
+/// How a result is delivered by bands.
+pub struct Bands<'a> {
+    /// The format of a pixel.
+    pub format: Format,
+    /// Rows of a band (the last one may have fewer); 0 lets the engine choose.
+    pub rows: u32,
+    /// Takes the bands, on the calling thread only.
+    pub deliver: &'a mut BandFn<'a>,
+}
+
 /// Pixels of the caller that a computation writes into.
 pub struct PixelsMut<'a> {
     /// The format of a pixel.

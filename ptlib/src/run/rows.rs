@@ -5,9 +5,12 @@
 //! before the next one starts: intermediate rows stay in the nearest cache. Values depend neither
 //! on strips nor on segments, because a block sees only positions.
 
-use std::sync::{
-    Mutex, PoisonError,
-    atomic::{AtomicU64, Ordering},
+use std::{
+    ops::Range,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicU64, Ordering},
+    },
 };
 
 use super::{
@@ -91,13 +94,34 @@ impl StageRows<'_> {
         stored: &mut [Image],
         sinks: &mut [Sink<'_>],
     ) -> Result<Vec<u64>, MemberError> {
-        let (width, height) = self.sizes.working();
-        let rows = self.strip_rows(means);
-        let count = height.div_ceil(rows);
-        let strips = self.split(rows, count, stored, sinks);
         let strange: Vec<AtomicU64> = self.members.iter().map(|_| AtomicU64::new(0)).collect();
-        let culprit: Mutex<Option<(u32, usize)>> = Mutex::new(None);
         let buffers: Mutex<Vec<Buffers>> = Mutex::new(Vec::new());
+        let (step, height) = (self.sizes.supersampling, self.sizes.result.1);
+        let at_once = self.handed_over.iter().filter_map(|to| sinks[to.place].rows_at_once()).min();
+        let band = at_once.unwrap_or(height);
+        for first in (0..height).step_by(band as usize) {
+            let result = first..height.min(first + band);
+            let working = result.start * step..result.end * step;
+            self.run_range(means, &working, (stored, sinks), (&strange, &buffers))?;
+            for handed in &self.handed_over {
+                sinks[handed.place].deliver(&result).map_err(|error| (None, error))?;
+            }
+        }
+        Ok(strange.into_iter().map(AtomicU64::into_inner).collect())
+    }
+
+    /// Computes the rows `range`.
+    fn run_range(
+        &self,
+        means: &Means<'_>,
+        range: &Range<u32>,
+        (stored, sinks): (&mut [Image], &mut [Sink<'_>]),
+        (strange, buffers): (&[AtomicU64], &Mutex<Vec<Buffers>>),
+    ) -> Result<(), MemberError> {
+        let (width, height) = self.sizes.working();
+        let rows = self.strip_rows(means, range);
+        let strips = self.split(range, rows, stored, sinks);
+        let culprit: Mutex<Option<(u32, usize)>> = Mutex::new(None);
         let progress: &dyn Progress = means.monitor;
         let done = progress.parallel(strips.len(), &|number| {
             let mut strip = strips[number].lock().unwrap_or_else(PoisonError::into_inner);
@@ -107,7 +131,7 @@ impl StageRows<'_> {
                 None => Buffers::new(self, means, width)?,
             };
             let mut at = None;
-            let result = guard(|| self.run_strip(means, &mut strip, &mut own, &mut at, &strange));
+            let result = guard(|| self.run_strip(means, &mut strip, &mut own, &mut at, strange));
             if let Err(error) = result {
                 let mut culprit = culprit.lock().unwrap_or_else(PoisonError::into_inner);
                 if let Some(member) = at
@@ -122,13 +146,12 @@ impl StageRows<'_> {
             Ok(())
         });
         let culprit = culprit.into_inner().unwrap_or_else(PoisonError::into_inner);
-        done.map_err(|error| (culprit.map(|(_, member)| member), error))?;
-        Ok(strange.into_iter().map(AtomicU64::into_inner).collect())
+        done.map_err(|error| (culprit.map(|(_, member)| member), error))
     }
 
     /// Rows of a strip: a multiple of the supersampling, so that a result row has one maker.
-    fn strip_rows(&self, means: &Means<'_>) -> u32 {
-        let (width, height) = self.sizes.working();
+    fn strip_rows(&self, means: &Means<'_>, range: &Range<u32>) -> u32 {
+        let (width, height) = (self.sizes.working().0, range.end - range.start);
         let step = self.sizes.supersampling;
         let wanted = match means.strip_rows {
             0 => {
@@ -142,29 +165,33 @@ impl StageRows<'_> {
 
     fn split<'a>(
         &self,
+        range: &Range<u32>,
         rows: u32,
-        count: u32,
         stored: &'a mut [Image],
         sinks: &'a mut [Sink<'_>],
     ) -> Vec<Mutex<Strip<'a>>> {
-        let (width, height) = self.sizes.working();
-        let mut strips: Vec<Strip<'a>> = (0..count)
-            .map(|number| Strip {
-                first_row: number * rows,
-                rows: rows.min(height - number * rows),
+        let width = self.sizes.working().0 as usize;
+        let mut strips: Vec<Strip<'a>> = range
+            .clone()
+            .step_by(rows as usize)
+            .map(|first_row| Strip {
+                first_row,
+                rows: rows.min(range.end - first_row),
                 stored: Vec::new(),
                 sinks: Vec::new(),
             })
             .collect();
-        let piece = width as usize * rows as usize;
+        let piece = width * rows as usize;
         for plane in stored.iter_mut().flat_map(Image::planes_mut) {
+            let plane = &mut plane[range.start as usize * width..range.end as usize * width];
             for (strip, part) in strips.iter_mut().zip(plane.chunks_mut(piece)) {
                 strip.stored.push(part);
             }
         }
         for (place, sink) in sinks.iter_mut().enumerate() {
             if self.handed_over.iter().any(|handed| handed.place == place) {
-                let parts = sink.split(rows / self.sizes.supersampling);
+                let step = self.sizes.supersampling;
+                let parts = sink.split(&(range.start / step..range.end / step), rows / step);
                 for (strip, part) in strips.iter_mut().zip(parts) {
                     strip.sinks.push(part);
                 }

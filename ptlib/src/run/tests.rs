@@ -2,7 +2,9 @@
 
 use std::{cell::Cell, sync::Mutex, time::Duration};
 
-use super::{Cancel, ComputeOptions, Engine, EngineOptions, LogLevel, PixelsMut, ProgressReport};
+use super::{
+    Band, Bands, Cancel, ComputeOptions, Engine, EngineOptions, LogLevel, PixelsMut, ProgressReport,
+};
 use crate::{
     block::{Family, prelude::*},
     graph::{BlockId, Graph},
@@ -290,6 +292,68 @@ fn pixels_go_straight_to_the_caller() {
             }
         }
     }
+}
+
+#[test]
+fn bands_together_are_the_image() {
+    let engine = engine(0);
+    let (graph, ids) = graph(&engine, MIXED);
+    for supersampling in [1, 2] {
+        let options =
+            || ComputeOptions { supersampling: Some(supersampling), ..Default::default() };
+        for block in [ids[5], ids[3], ids[0]] {
+            let expected = engine.compute(&graph, block, 0, options()).unwrap();
+            for rows in [1, 4, 9, 100, 0] {
+                let mut all: Vec<u8> = Vec::new();
+                let mut deliver = |band: &Band<'_>| {
+                    assert_eq!(band.stride(), 13 * 6);
+                    assert_eq!(band.first_row as usize * band.stride(), all.len());
+                    assert!(rows == 0 || band.rows == rows.min(9 - band.first_row));
+                    all.extend(band.pixels);
+                    Ok(())
+                };
+                let bands = Bands { format: Format::Rgb16, rows, deliver: &mut deliver };
+                engine.compute_bands(&graph, block, 0, options(), bands).unwrap();
+                assert_eq!(all, expected.to_pixels(Format::Rgb16).data, "{rows}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_taker_of_bands_ends_a_computation_that_no_memory_could_hold() {
+    let engine = engine(0);
+    let (graph, ids) = graph(&engine, &[("ramp", &[]), ("add", &[(0, 0)]), ("end", &[(1, 0)])]);
+    let mut taken = 0;
+    let mut deliver = |band: &Band<'_>| {
+        taken += band.rows;
+        Err(Error::new(ErrorKind::Io, "the disk is full"))
+    };
+    let bands = Bands { format: Format::RgbaF32, rows: 0, deliver: &mut deliver };
+    let options = ComputeOptions {
+        size: Some((16_384, 16_384)),
+        memory_bytes: Some(64 << 20),
+        ..Default::default()
+    };
+    let error = engine.compute_bands(&graph, ids[2], 0, options, bands).unwrap_err();
+    assert_eq!((error.kind(), taken), (ErrorKind::Io, 128));
+}
+
+#[test]
+fn white_bands_follow_those_that_are_gone() {
+    let engine = engine(0);
+    let (mut graph, ids) = graph(&engine, &[("bad", &[]), ("end", &[(0, 0)])]);
+    graph.set_float(ids[0], "amount", 2.0).unwrap();
+    let mut rows = Vec::new();
+    let mut deliver = |band: &Band<'_>| {
+        rows.push((band.first_row, band.pixels[0]));
+        Ok(())
+    };
+    let bands = Bands { format: Format::Grey8, rows: 4, deliver: &mut deliver };
+    let options = ComputeOptions { keep_going: true, ..Default::default() };
+    engine.compute_bands(&graph, ids[1], 0, options, bands).unwrap();
+    assert_eq!(rows.iter().map(|(first, _)| *first).collect::<Vec<_>>(), [0, 4, 8]);
+    assert_eq!(rows[2].1, 255);
 }
 
 #[test]

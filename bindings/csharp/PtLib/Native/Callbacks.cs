@@ -16,6 +16,9 @@ namespace PtLib.Native
         internal static readonly IntPtr Progress =
             (IntPtr)(delegate* unmanaged[Cdecl]<NativeProgress*, IntPtr, int>)&OnProgress;
 
+        internal static readonly IntPtr Band =
+            (IntPtr)(delegate* unmanaged[Cdecl]<NativeBand*, IntPtr, int>)&OnBand;
+
         internal static readonly IntPtr Log =
             (IntPtr)(delegate* unmanaged[Cdecl]<int, byte*, IntPtr, void>)&OnLog;
 
@@ -26,12 +29,14 @@ namespace PtLib.Native
             (IntPtr)(delegate* unmanaged[Cdecl]<IntPtr, void>)&OnFree;
 #else
         internal static readonly IntPtr Progress;
+        internal static readonly IntPtr Band;
         internal static readonly IntPtr Log;
         internal static readonly IntPtr Scan;
         internal static readonly IntPtr Free;
 
         // The delegates live as long as the process, and so do the functions made of them.
         private static readonly ProgressFunction ProgressDelegate = OnProgress;
+        private static readonly BandFunction BandDelegate = OnBand;
         private static readonly LogFunction LogDelegate = OnLog;
         private static readonly ScanFunction ScanDelegate = OnScan;
         private static readonly FreeFunction FreeDelegate = OnFree;
@@ -39,6 +44,7 @@ namespace PtLib.Native
         static Callbacks()
         {
             Progress = Marshal.GetFunctionPointerForDelegate(ProgressDelegate);
+            Band = Marshal.GetFunctionPointerForDelegate(BandDelegate);
             Log = Marshal.GetFunctionPointerForDelegate(LogDelegate);
             Scan = Marshal.GetFunctionPointerForDelegate(ScanDelegate);
             Free = Marshal.GetFunctionPointerForDelegate(FreeDelegate);
@@ -46,6 +52,9 @@ namespace PtLib.Native
 
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         private delegate int ProgressFunction(NativeProgress* progress, IntPtr userData);
+
+        [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+        private delegate int BandFunction(NativeBand* band, IntPtr userData);
 
         [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
         private delegate void LogFunction(int level, byte* message, IntPtr userData);
@@ -65,6 +74,16 @@ namespace PtLib.Native
         private static int OnProgress(NativeProgress* progress, IntPtr userData)
         {
             return Target<Watcher>(userData).Report(progress->Fraction) ? 0 : 1;
+        }
+
+#if NET8_0_OR_GREATER
+        [UnmanagedCallersOnly(CallConvs = new[] { typeof(CallConvCdecl) })]
+#else
+        [MonoPInvokeCallback(typeof(BandFunction))]
+#endif
+        private static int OnBand(NativeBand* band, IntPtr userData)
+        {
+            return Target<BandTaker>(userData).Take(band) ? 0 : 1;
         }
 
 #if NET8_0_OR_GREATER

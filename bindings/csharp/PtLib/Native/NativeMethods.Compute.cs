@@ -21,6 +21,11 @@ namespace PtLib.Native
             UIntPtr size, UIntPtr rowStride, IntPtr* error);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int ptl_graph_compute_bands(
+            IntPtr graph, ulong block, uint outPort, NativeComputeOptions* options, uint bandRows,
+            IntPtr onBand, void* userData, IntPtr* error);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int ptl_graph_write_files(
             IntPtr graph, NativeComputeOptions* options, IntPtr* error);
 

@@ -107,6 +107,20 @@ namespace PtLib.Native
         internal ulong Block;
     }
 
+    /// <summary>ptl_band</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct NativeBand
+    {
+        internal uint StructSize;
+        internal uint FirstRow;
+        internal uint Rows;
+        internal uint Width;
+        internal uint Format;
+        internal uint Reserved0;
+        internal UIntPtr RowStride;
+        internal void* Pixels;
+    }
+
     /// <summary>ptl_image_info</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct NativeImageInfo
