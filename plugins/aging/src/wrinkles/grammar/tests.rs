@@ -276,3 +276,78 @@ fn hostile_texts_give_faults() {
         }
     }
 }
+
+#[test]
+fn whatever_pieces_come_together_are_read_again_or_refused_with_places() {
+    let pieces = [
+        "!",
+        "#",
+        "=",
+        ";",
+        ",",
+        " ",
+        "\t",
+        "\n",
+        "\r\n",
+        "ma",
+        "mb",
+        "n",
+        "relwidth",
+        "maxAngle",
+        "omegaLow",
+        "AMPLITUDE",
+        "1",
+        ".5",
+        "-",
+        "+",
+        "e",
+        "9",
+        "1e-6",
+        "\u{feff}",
+        "ř",
+        "ma=1;0 ",
+        "mb=.5;.5 ",
+        "n=3 ",
+        "! ma=0;0 mb=1;1 n=2 ",
+        "relwidth=.7 ",
+    ];
+    let mut state = 1_u32;
+    let (mut read, mut refused) = (0, 0);
+    for _ in 0..20_000 {
+        let mut next = |count: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) % count
+        };
+        let count = next(12);
+        let text: String = (0..count)
+            .filter_map(|_| pieces.get(next(u32::try_from(pieces.len()).unwrap()) as usize))
+            .copied()
+            .collect();
+        match parse(text.as_bytes(), &Limits::default()) {
+            Ok(muscles) => {
+                let written: String = muscles.iter().map(written).collect();
+                assert_eq!(parse(written.as_bytes(), &Limits::default()).unwrap(), muscles);
+                read += usize::from(!muscles.is_empty());
+            }
+            Err(faults) => {
+                refused += 1;
+                assert!(faults.count() > 0 && faults.count() == faults.list().len());
+                let lines: Vec<_> = lines(text.as_bytes()).collect();
+                for Fault { line, column, .. } in faults.list() {
+                    assert!((1..=lines[line - 1].len() + 1).contains(column), "{text:?}: {faults}");
+                }
+            }
+        }
+    }
+    assert!(read > 50 && refused > 10_000, "{read}, {refused}");
+}
+
+/// A muscle as its file describes it.
+fn written(muscle: &Muscle) -> String {
+    let Muscle { from, to, wrinkles, width, max_angle, low, amplitude } = muscle;
+    format!(
+        "! ma={:e};{:e} mb={:e};{:e} n={wrinkles} relwidth={width:e} maxangle={max_angle:e} \
+         omegalow={low:e} amplitude={amplitude:e}\n",
+        from[0], from[1], to[0], to[1]
+    )
+}

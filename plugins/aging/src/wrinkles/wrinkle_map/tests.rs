@@ -210,6 +210,26 @@ fn faults_name_the_block_and_all_places() {
 }
 
 #[test]
+fn the_example_is_a_face() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/head/wrinkles.txt");
+    let text = fs::read_to_string(path).unwrap();
+    assert!(parse(text.as_bytes(), &Limits::default()).unwrap().len() > 30);
+    let image = map(&testing::engine(), &[muscles(&text)], size(64, 64)).unwrap();
+    let at = |u: f64, v: f64| {
+        let index =
+            |place: f64| (0..64).take_while(|i| f64::from(*i) + 1.0 <= place * 64.0).count();
+        image.channel(0)[index(1.0 - v) * 64 + index(u)]
+    };
+    // Forehead, crow's feet, folds, neck; not the eyes, the back of the head, the top.
+    for [u, v] in [[0.43, 0.67], [0.36, 0.55], [0.64, 0.55], [0.42, 0.43], [0.5, 0.13]] {
+        assert!(at(u, v) > 0.2, "{u}, {v}");
+    }
+    for [u, v] in [[0.43, 0.57], [0.57, 0.57], [0.05, 0.5], [0.95, 0.5], [0.5, 0.9]] {
+        assert_eq!(at(u, v), 0.0, "{u}, {v}");
+    }
+}
+
+#[test]
 fn no_muscle_is_flat_skin() {
     for normalise in [0, 1] {
         let choice = ("normalise", ParamValue::Choice(normalise));
