@@ -4,8 +4,6 @@
 //! nothing ages the young map comes out bit for bit: the difference to the old one is not even
 //! looked at, since it may be beyond all numbers.
 
-use std::iter::repeat;
-
 use ptlib_plugin::prelude::*;
 
 const OLD: usize = 0;
@@ -66,24 +64,31 @@ impl Block for AgeHeight {
 }
 
 impl AgeHeight {
+    /// Writes a row. Each case has a loop of its own that vectorises.
     fn age_row(&self, out: &mut [f32], old: &[f32], mask: Option<&[f32]>, young: Option<&[f32]>) {
+        let age = self.age;
         let out = out.iter_mut().zip(old);
         match (mask, young) {
-            (None, None) => self.age_all(out.zip(repeat(&1.0)).zip(repeat(&0.0))),
-            (None, Some(young)) => self.age_all(out.zip(repeat(&1.0)).zip(young)),
-            (Some(mask), None) => self.age_all(out.zip(mask).zip(repeat(&0.0))),
-            (Some(mask), Some(young)) => self.age_all(out.zip(mask).zip(young)),
+            (None, None) => out.for_each(|(out, &old)| *out = aged(0.0, old, age)),
+            (None, Some(young)) => {
+                out.zip(young).for_each(|((out, &old), &young)| *out = aged(young, old, age));
+            }
+            (Some(mask), None) => {
+                out.zip(mask).for_each(|((out, &old), &mask)| *out = aged(0.0, old, age * mask));
+            }
+            (Some(mask), Some(young)) => {
+                let all = out.zip(mask).zip(young);
+                all.for_each(|(((out, &old), &mask), &young)| *out = aged(young, old, age * mask));
+            }
         }
     }
+}
 
-    #[inline(always)]
-    fn age_all<'a>(&self, all: impl Iterator<Item = (((&'a mut f32, &'a f32), &'a f32), &'a f32)>) {
-        all.for_each(|(((out, old), mask), young)| {
-            let weight = self.age * mask;
-            let aged = young + (old - young) * weight;
-            *out = if weight == 0.0 { *young } else { aged };
-        });
-    }
+/// The height between a young and an old one.
+#[inline(always)]
+fn aged(young: f32, old: f32, weight: f32) -> f32 {
+    let aged = young + (old - young) * weight;
+    if weight == 0.0 { young } else { aged }
 }
 
 #[cfg(test)]
