@@ -64,7 +64,9 @@ impl Block for AgeHeight {
 }
 
 impl AgeHeight {
-    /// Writes a row. Each case has a loop of its own that vectorises.
+    /// Writes a row. Each case has a loop of its own, and they vectorise: as long as this stays a
+    /// function, the compiler knows that the output is none of the inputs.
+    #[inline(never)]
     fn age_row(&self, out: &mut [f32], old: &[f32], mask: Option<&[f32]>, young: Option<&[f32]>) {
         let age = self.age;
         let out = out.iter_mut().zip(old);
