@@ -13,7 +13,7 @@ mod wrinkles;
 
 use ptlib_plugin::export_plugin;
 
-pub use wrinkles::age_height::AgeHeight;
+pub use wrinkles::{age_height::AgeHeight, grammar, wrinkle_map::WrinkleMap};
 
 export_plugin! {
     id: c"aging",
@@ -22,6 +22,7 @@ export_plugin! {
     license: c"MIT OR Apache-2.0",
     blocks: [
         AgeHeight,
+        WrinkleMap,
     ],
 }
 
