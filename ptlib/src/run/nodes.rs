@@ -261,7 +261,10 @@ fn key(
         key.never_again();
     }
     for (spec, value) in spec.params.iter().zip(values) {
-        if let (ParamKind::Path(FileUse::Read), ParamValue::Text(path)) = (&spec.kind, value) {
+        // An empty path names no file: what that means is for the block to say.
+        if let (ParamKind::Path(FileUse::Read), ParamValue::Text(path)) = (&spec.kind, value)
+            && !path.is_empty()
+        {
             let bytes = purpose.files.read(path).map_err(|error| error.at_parameter(spec.id))?;
             key.bytes(&bytes);
         }

@@ -57,13 +57,13 @@ params! {
         /// Those three must be there. `relWidth` (up to 1, else 0.5) is half of its width in
         /// lengths of the fibre, `maxAngle` (1 to 2, else 1.25) how far wrinkles go round its end in
         /// right angles, `omegaLow` (0 to 1, else 0.5) the part of its wrinkles that is left at its
-        /// rim, and `amplitude` (0 to 4, else 1) how high it is. `#` starts a comment. Not read if
-        /// the input is connected or `path` names a file.
+        /// rim, and `amplitude` (0 to 4, else 1) how high it is. `#` starts a comment. The
+        /// input, if it is connected, and the file of `path` replace it.
         muscles: text = "! ma=.3;.75 mb=.33;.6 n=4 relWidth=.9 maxAngle=1.5 omegaLow=.6 \
             ! ma=.7;.75 mb=.67;.6 n=4 relWidth=.9 maxAngle=1.5 omegaLow=.6";
-        /// A file with the muscles, written as in `muscles`; empty for none. Not read if the input
-        /// is connected.
-        path: text = "";
+        /// A file with the muscles, written as in `muscles`; empty for none. The input, if it is
+        /// connected, replaces it.
+        path: path [read] = "";
         /// How heights lie across a wrinkle.
         profile: choice [Profile] = Profile::Bulge;
         /// The power to which heights are raised. At 1 they stay what they are; below, low wrinkles
@@ -105,8 +105,6 @@ impl Block for WrinkleMap {
         outputs: &[&output(c"image", Planes::Grey)
             .doc(c"The heights: 0 is flat skin, 1 the highest crest.")],
         shape: Shape::Point,
-        // The host does not know what is in the file that `path` names.
-        varies: true,
         ..About::DEFAULT
     };
 
