@@ -320,3 +320,27 @@ fn a_maze_of_thousands_of_generations_ends() {
     let hair = |image: &Image| image.channel(0).iter().filter(|value| **value > 0.0).count();
     assert_eq!(hair(&loss), hair(&outer));
 }
+
+#[test]
+fn masks_of_a_head_are_read_and_lie_in_each_other() {
+    let engine = testing::engine();
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/head");
+    let [outer, inner] = ["outer-hair.xml", "inner-hair.xml"].map(|name| {
+        let reading = engine.read_graph(&std::fs::read(folder.join(name)).unwrap()).unwrap();
+        assert!(reading.warnings.is_empty(), "{name}: {:?}", reading.warnings);
+        let result = reading.graph.main_result().unwrap();
+        let options = ComputeOptions { size: Some((128, 128)), ..Default::default() };
+        engine.compute(&reading.graph, result, 0, options).unwrap()
+    });
+    let share = |image: &Image| {
+        let values = image.channel(0);
+        values.iter().filter(|value| **value >= 0.5).count() as f32 / values.len() as f32
+    };
+    let shares = [share(&outer), share(&inner)];
+    assert!((0.3..0.6).contains(&shares[0]) && (0.03..0.2).contains(&shares[1]), "{shares:?}");
+    assert!(inner.channel(0).iter().zip(outer.channel(0)).all(|(inner, outer)| inner <= outer));
+    // The face and the neck are bare; the crown has hair in youth only, the back in age too.
+    let at = |x: usize, y: u32| [&outer, &inner].map(|image| image.row(0, y)[x] >= 0.5);
+    assert_eq!([at(64, 60), at(64, 127), at(3, 120)], [[false; 2]; 3]);
+    assert_eq!([at(64, 10), at(3, 20), at(3, 62)], [[true, false], [true, false], [true, true]]);
+}

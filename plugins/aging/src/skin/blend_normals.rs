@@ -72,8 +72,10 @@ impl Block for BlendNormals {
         category: c"skin",
         summary: c"Lays the detail of any normal map on another, as much as an age and a mask let.",
         inputs: &[
-            &input(c"base", Kind::Image)
-                .doc(c"The normals of the surface, in red, green and blue. Alpha is kept."),
+            &input(c"base", Kind::Image).doc(
+                c"The normals of the surface, in red, green and blue. Alpha is kept. (A grey \
+                       image is no normal map: it counts as red, green and blue alike.)",
+            ),
             &input(c"detail", Kind::Image)
                 .doc(c"The normals of what lies on it, in red, green and blue."),
             &input(c"mask", Kind::Image).optional().doc(
@@ -86,13 +88,7 @@ impl Block for BlendNormals {
         ..About::DEFAULT
     };
 
-    fn prepare(params: &Params, setup: &Setup<'_>) -> Result<Self, BlockError> {
-        for (input, name) in [(BASE, "base"), (DETAIL, "detail")] {
-            if setup.image(input).is_some_and(|image| image.channels() < 3) {
-                let message = format!("the input `{name}` is grey; normals have 3 or 4 channels");
-                return Err(BlockError::invalid(message));
-            }
-        }
+    fn prepare(params: &Params, _: &Setup<'_>) -> Result<Self, BlockError> {
         Ok(Self {
             age: math::single(params.age),
             base_age: math::single(params.base_age),
@@ -117,8 +113,18 @@ impl BlendNormals {
         for (channel, plane) in channels.iter_mut().enumerate().skip(3) {
             plane.copy_from_slice(base.row(channel, y));
         }
-        let [red, green, blue, ..] = &mut channels[..] else { return };
-        let out = [&mut **red, &mut **green, &mut **blue];
+        // Of a grey base, green and blue are computed and thrown away.
+        let mut spare = [vec![], vec![]];
+        let [first, rest @ ..] = &mut channels[..] else { return };
+        let [second, third] = &mut spare;
+        let out: [&mut [f32]; 3] = match rest {
+            [green, blue, ..] => [first, green, blue],
+            _ => {
+                second.resize(first.len(), 0.0);
+                third.resize(first.len(), 0.0);
+                [first, second, third]
+            }
+        };
         let rows = [base, detail].map(|image| [0, 1, 2].map(|channel| image.row(channel, y)));
         let age = self.age;
         match mask.map(|mask| mask.row(0, y)) {
@@ -205,7 +211,7 @@ fn whiteout([bx, by, bz]: Vector, [dx, dy, dz]: Vector) -> Vector {
 
 #[cfg(test)]
 mod tests {
-    use ptlib::{ComputeOptions, Image, params::ParamValue};
+    use ptlib::{Image, params::ParamValue};
 
     use super::super::trial;
 
@@ -319,12 +325,15 @@ mod tests {
     }
 
     #[test]
-    fn grey_images_are_no_normals() {
-        let [grey, normals] = [&[0.5][..], &[0.5, 0.5, 1.0]].map(|c| trial::plain((2, 2), c));
-        for (inputs, name) in [([&grey, &normals], "`base`"), ([&normals, &grey], "`detail`")] {
-            let options = ComputeOptions::default();
-            let error = trial::tried(BLOCK, &inputs.map(Some), &[], options).unwrap_err();
-            assert!(error.to_string().contains(name), "{error}");
+    fn grey_images_count_as_three_alike() {
+        let grey = anything((9, 4), 1, 1);
+        let colour = trial::picture((9, 4), 3, |_, x, y| grey.row(0, y)[x as usize]);
+        let detail = anything((9, 4), 4, 2);
+        for method in [TANGENT, REORIENTED, WHITEOUT] {
+            let params = params(method, 0.5);
+            let blended = |base| trial::made(BLOCK, &[Some(base), Some(&detail)], &params);
+            let (grey, colour) = (blended(&grey), blended(&colour));
+            assert_eq!((grey.planes(), grey.channel(0)), (1, colour.channel(0)));
         }
     }
 
