@@ -15,7 +15,7 @@
 
 use ptlib_plugin::{Image, Row, prelude::*};
 
-use super::packing::{Packing, ZRange};
+use super::packing::{LANES, Packing, ZRange};
 
 const BASE: usize = 0;
 const DETAIL: usize = 1;
@@ -126,20 +126,16 @@ impl BlendNormals {
             }
         };
         let rows = [base, detail].map(|image| [0, 1, 2].map(|channel| image.row(channel, y)));
-        let age = self.age;
-        match mask.map(|mask| mask.row(0, y)) {
-            Some(mask) => self.by_method(rows, |i| age * mask[i], out),
-            None => self.by_method(rows, |_| age, out),
-        }
+        self.by_method(rows, mask.map(|mask| mask.row(0, y)), out);
     }
 
     /// Chooses the method outside of the loop over pixels.
     #[inline(always)]
-    fn by_method(&self, rows: [[&[f32]; 3]; 2], age: impl Fn(usize) -> f32, out: [&mut [f32]; 3]) {
+    fn by_method(&self, rows: [[&[f32]; 3]; 2], mask: Option<&[f32]>, out: [&mut [f32]; 3]) {
         match self.method {
-            Method::Tangent => self.blend(rows, age, on_tangents, out),
-            Method::Reoriented => self.blend(rows, age, reoriented, out),
-            Method::Whiteout => self.blend(rows, age, whiteout, out),
+            Method::Tangent => self.blend(rows, mask, on_tangents, out),
+            Method::Reoriented => self.blend(rows, mask, reoriented, out),
+            Method::Whiteout => self.blend(rows, mask, whiteout, out),
         }
     }
 
@@ -147,24 +143,36 @@ impl BlendNormals {
     fn blend(
         &self,
         [base, detail]: [[&[f32]; 3]; 2],
-        age: impl Fn(usize) -> f32,
+        mask: Option<&[f32]>,
         join: impl Fn(Vector, Vector) -> Vector,
         out: [&mut [f32]; 3],
     ) {
-        let len = out[0].len();
-        let [base, detail] = [base, detail].map(|rows| rows.map(|row| &row[..len]));
-        let [red, green, blue] = out.map(|row| &mut row[..len]);
-        let is_whole = self.base_age == 1.0;
-        for i in 0..len {
-            let age = age(i);
-            let own = base.map(|row| row[i]);
-            let below = aged(self.unpacked(own), self.base_age);
-            let above = aged(self.unpacked(detail.map(|row| row[i])), age);
-            let [x, y, z] = unit(join(below, above));
-            let is_kept = is_whole & (age == 0.0);
-            red[i] = if is_kept { own[0] } else { Packing::HALVED.packed(x) };
-            green[i] = if is_kept { own[1] } else { Packing::HALVED.packed(y) };
-            blue[i] = if is_kept { own[2] } else { self.z.packed(z) };
+        let [red, green, blue] = out;
+        let (len, is_whole) = (red.len(), self.base_age == 1.0);
+        let (mut here, mut ages) = ([[0.0; LANES]; 3], [self.age; LANES]);
+        for start in (0..len).step_by(LANES) {
+            let end = len.min(start + LANES);
+            let [base, detail] = [base, detail].map(|rows| rows.map(|row| &row[start..end]));
+            if let Some(mask) = mask {
+                let ages = ages.iter_mut().zip(&mask[start..end]);
+                ages.for_each(|(age, mask)| *age = self.age * mask);
+            }
+            let ages = &ages[..end - start];
+            let [x, y, z] = here.each_mut().map(|plane| &mut plane[..end - start]);
+            for i in 0..z.len() {
+                let age = ages[i];
+                let own = base.map(|row| row[i]);
+                let below = aged(self.unpacked(own), self.base_age);
+                let above = aged(self.unpacked(detail.map(|row| row[i])), age);
+                let both = unit(join(below, above));
+                let is_kept = is_whole & (age == 0.0);
+                x[i] = if is_kept { own[0] } else { Packing::HALVED.packed(both[0]) };
+                y[i] = if is_kept { own[1] } else { Packing::HALVED.packed(both[1]) };
+                z[i] = if is_kept { own[2] } else { self.z.packed(both[2]) };
+            }
+            red[start..end].copy_from_slice(x);
+            green[start..end].copy_from_slice(y);
+            blue[start..end].copy_from_slice(z);
         }
     }
 

@@ -77,7 +77,7 @@ impl Block for FineWrinkles {
 impl FineWrinkles {
     /// Writes a part of a row from a pixel on.
     fn write(&self, (x, y): (usize, usize), to: &mut [f32]) {
-        let rows = Span::of(y, self.repeats[1], self.sums.height);
+        let rows = Circle::new(self.repeats[1], self.sums.height).spans(y).span();
         let [above, below, all] =
             [rows.start, rows.end, self.sums.height].map(|row| self.sums.row(row));
         if rows.turns == 0.0 {
@@ -93,8 +93,10 @@ impl FineWrinkles {
     fn write_means(&self, x: usize, to: &mut [f32], left_of: impl Fn(usize) -> f64) {
         let ([across, down], width) = (self.repeats, self.sums.width);
         let (share, all) = (1.0 / (across * down) as f64, left_of(width));
-        for (pixel, x) in to.iter_mut().zip(x..) {
-            let columns = Span::of(x, across, width);
+        let mut spans = Circle::new(across, width).spans(x);
+        for pixel in to {
+            let columns = spans.span();
+            spans.go_on();
             let sum = left_of(columns.end) - left_of(columns.start) + columns.turns * all;
             *pixel = math::single((sum * share).clamp(0.0, 1.0));
         }
@@ -108,14 +110,50 @@ struct Span {
     turns: f64,
 }
 
-impl Span {
-    /// That of a pixel which shows `repeats` places of a line of some length.
+/// A line that repeats, of which each pixel shows equally many places.
+#[derive(Clone, Copy)]
+struct Circle {
+    repeats: usize,
+    length: usize,
+    /// Whole turns from the first place of a pixel to its last one, and the places beyond.
+    turns: usize,
+    rest: usize,
+}
+
+impl Circle {
+    fn new(repeats: usize, length: usize) -> Self {
+        let last = repeats - 1;
+        Self { repeats, length, turns: last / length, rest: last % length }
+    }
+
+    fn spans(self, pixel: usize) -> Spans {
+        let start = pixel * self.repeats % self.length;
+        Spans { circle: self, step: self.repeats % self.length, start }
+    }
+}
+
+/// The spans of one pixel after the other, without a division.
+struct Spans {
+    circle: Circle,
+    step: usize,
+    start: usize,
+}
+
+impl Spans {
     #[inline(always)]
-    fn of(pixel: usize, repeats: usize, length: usize) -> Self {
-        let start = pixel * repeats % length;
+    fn span(&self) -> Span {
+        let Circle { length, turns, rest, .. } = self.circle;
+        let last = self.start + rest;
         // The end of the line is not its start yet, so that whole turns are rare.
-        let last = start + repeats - 1;
-        Self { start, end: last % length + 1, turns: (last / length) as f64 }
+        let crosses = last >= length;
+        let end = if crosses { last - length } else { last } + 1;
+        Span { start: self.start, end, turns: (turns + usize::from(crosses)) as f64 }
+    }
+
+    #[inline(always)]
+    fn go_on(&mut self) {
+        let next = self.start + self.step;
+        self.start = if next >= self.circle.length { next - self.circle.length } else { next };
     }
 }
 
@@ -135,18 +173,20 @@ impl Sums {
         let len = (width + 1).checked_mul(height + 1).ok_or_else(none)?;
         let mut sums = Vec::new();
         sums.try_reserve_exact(len).map_err(|_| none())?;
-        sums.resize(width + 1, 0.0);
-        for y in 0..image.height() {
+        sums.resize(len, 0.0);
+        let mut rows = sums.chunks_exact_mut(width + 1);
+        let mut above = rows.next().unwrap_or_default();
+        for (row, y) in rows.zip(0..) {
             if y % ROWS == 0 {
                 setup.check()?;
             }
-            let above = sums.len() - (width + 1);
             let mut sum = 0.0;
-            sums.push(0.0);
-            for (x, value) in image.row(0, y).iter().enumerate() {
+            let pairs = row[1..].iter_mut().zip(&above[1..]).zip(image.row(0, y));
+            for ((own, above), value) in pairs {
                 sum += f64::from(*value);
-                sums.push(sums[above + 1 + x] + sum);
+                *own = above + sum;
             }
+            above = row;
         }
         Ok(Self { width, height, sums })
     }

@@ -10,7 +10,7 @@
 
 use ptlib_plugin::{Image, Row, prelude::*};
 
-use super::packing::{Packing, ZRange};
+use super::packing::{LANES, Packing, ZRange};
 
 const HEIGHT: usize = 0;
 
@@ -159,14 +159,24 @@ impl HeightToNormal {
         let own = around.own;
         let [left, right] = around.sides.map(|row| &row[..own.len()]);
         let [above, below] = around.rows.map(|row| &row[..own.len()]);
-        let [red, green, blue, alpha] = out.map(|plane| &mut plane[..own.len()]);
-        for i in 0..own.len() {
-            let x = (left[i] - right[i]) * across;
-            let y = (below[i] - above[i]) * down;
-            let inverse = 1.0 / (x * x + y * y + 1.0).sqrt();
-            red[i] = Packing::HALVED.packed(x * inverse);
-            green[i] = Packing::HALVED.packed(y * inverse);
-            blue[i] = self.z.packed(inverse);
+        let [red, green, blue, alpha] = out;
+        let mut here = [[0.0; LANES]; 3];
+        for start in (0..own.len()).step_by(LANES) {
+            let end = own.len().min(start + LANES);
+            let [left, right, above, below] =
+                [left, right, above, below].map(|row| &row[start..end]);
+            let [x, y, z] = here.each_mut().map(|plane| &mut plane[..end - start]);
+            for i in 0..z.len() {
+                let across = (left[i] - right[i]) * across;
+                let down = (below[i] - above[i]) * down;
+                let inverse = 1.0 / (across * across + down * down + 1.0).sqrt();
+                x[i] = Packing::HALVED.packed(across * inverse);
+                y[i] = Packing::HALVED.packed(down * inverse);
+                z[i] = self.z.packed(inverse);
+            }
+            red[start..end].copy_from_slice(x);
+            green[start..end].copy_from_slice(y);
+            blue[start..end].copy_from_slice(z);
         }
         alpha.copy_from_slice(own);
     }

@@ -5,6 +5,10 @@
 
 use ptlib_plugin::prelude::*;
 
+/// Pixels that are computed before they are written: into memory of their own, for only where
+/// nothing overlaps does the compiler compute several pixels at once.
+pub const LANES: usize = 128;
+
 choice! {
     /// How the third component of a normal lies in the blue channel.
     ZRange {
