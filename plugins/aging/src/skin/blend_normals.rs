@@ -145,34 +145,49 @@ impl BlendNormals {
         [base, detail]: [[&[f32]; 3]; 2],
         mask: Option<&[f32]>,
         join: impl Fn(Vector, Vector) -> Vector,
-        out: [&mut [f32]; 3],
+        mut out: [&mut [f32]; 3],
     ) {
-        let [red, green, blue] = out;
-        let (len, is_whole) = (red.len(), self.base_age == 1.0);
-        let (mut here, mut ages) = ([[0.0; LANES]; 3], [self.age; LANES]);
+        let mut here = Pixels { ages: [self.age; LANES], ..Pixels::NONE };
+        let len = out[0].len();
         for start in (0..len).step_by(LANES) {
-            let end = len.min(start + LANES);
-            let [base, detail] = [base, detail].map(|rows| rows.map(|row| &row[start..end]));
+            let pixels = start..len.min(start + LANES);
+            let read = |to: &mut [f32; LANES], from: &[f32]| {
+                to[..pixels.len()].copy_from_slice(&from[pixels.clone()]);
+            };
+            for channel in 0..3 {
+                read(&mut here.base[channel], base[channel]);
+                read(&mut here.detail[channel], detail[channel]);
+            }
             if let Some(mask) = mask {
-                let ages = ages.iter_mut().zip(&mask[start..end]);
+                let ages = here.ages.iter_mut().zip(&mask[pixels.clone()]);
                 ages.for_each(|(age, mask)| *age = self.age * mask);
             }
-            let ages = &ages[..end - start];
-            let [x, y, z] = here.each_mut().map(|plane| &mut plane[..end - start]);
-            for i in 0..z.len() {
-                let age = ages[i];
-                let own = base.map(|row| row[i]);
-                let below = aged(self.unpacked(own), self.base_age);
-                let above = aged(self.unpacked(detail.map(|row| row[i])), age);
-                let both = unit(join(below, above));
-                let is_kept = is_whole & (age == 0.0);
-                x[i] = if is_kept { own[0] } else { Packing::HALVED.packed(both[0]) };
-                y[i] = if is_kept { own[1] } else { Packing::HALVED.packed(both[1]) };
-                z[i] = if is_kept { own[2] } else { self.z.packed(both[2]) };
+            self.join(&mut here, &join);
+            for (out, base) in out.iter_mut().zip(&here.base) {
+                out[pixels.clone()].copy_from_slice(&base[..pixels.len()]);
             }
-            red[start..end].copy_from_slice(x);
-            green[start..end].copy_from_slice(y);
-            blue[start..end].copy_from_slice(z);
+        }
+    }
+
+    /// Joins some pixels, in place of the base. Those of age 0 stay as they are, in a loop of its
+    /// own: a choice in the first one would keep it from computing several pixels at once.
+    #[inline(always)]
+    fn join(&self, here: &mut Pixels, join: impl Fn(Vector, Vector) -> Vector) {
+        let Pixels { base, detail, ages } = here;
+        for i in 0..LANES {
+            let below = aged(self.unpacked(base.each_ref().map(|row| row[i])), self.base_age);
+            let above = aged(self.unpacked(detail.each_ref().map(|row| row[i])), ages[i]);
+            let [x, y, z] = unit(join(below, above));
+            detail[0][i] = Packing::HALVED.packed(x);
+            detail[1][i] = Packing::HALVED.packed(y);
+            detail[2][i] = self.z.packed(z);
+        }
+        // No age is negative.
+        let kept = if self.base_age == 1.0 { 0.0 } else { -1.0 };
+        for (base, joined) in base.iter_mut().zip(detail) {
+            for ((base, joined), age) in base.iter_mut().zip(joined).zip(ages.iter()) {
+                *base = if *age == kept { *base } else { *joined };
+            }
         }
     }
 
@@ -180,6 +195,18 @@ impl BlendNormals {
     fn unpacked(&self, [x, y, z]: [f32; 3]) -> Vector {
         [Packing::HALVED.unpacked(x), Packing::HALVED.unpacked(y), self.z.unpacked(z)]
     }
+}
+
+/// Pixels that are computed at a time.
+struct Pixels {
+    base: [[f32; LANES]; 3],
+    detail: [[f32; LANES]; 3],
+    ages: [f32; LANES],
+}
+
+impl Pixels {
+    const NONE: Self =
+        Self { base: [[0.0; LANES]; 3], detail: [[0.0; LANES]; 3], ages: [0.0; LANES] };
 }
 
 type Vector = [f32; 3];
