@@ -44,9 +44,9 @@ pub struct Grid<'a> {
     /// Pixels of a row, frame included.
     stride: usize,
     labels: Scratch<'a, u32>,
-    /// Pixels in the order in which they were reached; as many as have been since the last start.
-    queue: Scratch<'a, u32>,
-    end: usize,
+    /// Pixels in the order in which they were reached. It never grows beyond what it was made for;
+    /// memory that is not reached costs no time, which zeroed memory would.
+    queue: Vec<u32>,
     /// How many pixels are open.
     open: usize,
     /// Pixels until the next question whether to stop.
@@ -54,6 +54,11 @@ pub struct Grid<'a> {
 }
 
 impl<'a> Grid<'a> {
+    /// Bytes of a grid's queue; all else is memory of the host.
+    pub fn bytes(width: u32, height: u32) -> u64 {
+        u64::from(width) * u64::from(height) * size_of::<u32>() as u64
+    }
+
     /// A grid whose rows `label` writes, with what `begin` gives for some rows at a time.
     pub fn new<T>(
         work: Work<'a>,
@@ -66,10 +71,14 @@ impl<'a> Grid<'a> {
         let cells = cells.ok_or_else(|| {
             BlockError::limit(format!("{width} × {height} pixels are too many: 2³² are allowed"))
         })?;
-        let (labels, queue) = (work.scratch(cells)?, work.scratch(width * height)?);
+        let labels = work.scratch(cells)?;
+        let mut queue = Vec::new();
+        let reserved = queue.try_reserve_exact(width * height);
+        reserved
+            .map_err(|_| BlockError::no_memory("there is no memory for the queue of pixels"))?;
         let stride = width + 2;
-        let (end, open, rest) = (0, 0, CHECK);
-        let mut grid = Self { work, width, height, stride, labels, queue, end, open, rest };
+        let (open, rest) = (0, CHECK);
+        let mut grid = Self { work, width, height, stride, labels, queue, open, rest };
         let open = AtomicUsize::new(0);
         let inner = &mut grid.labels[stride..stride * (height + 1)];
         work.for_each(inner.chunks_mut(stride * Rows::CHUNK).enumerate(), |(chunk, rows)| {
@@ -117,7 +126,7 @@ impl<'a> Grid<'a> {
         let (mut generation, mut last) = (0, 0);
         while self.open > 0 {
             generation += 1;
-            let end = self.end;
+            let end = self.queue.len();
             match steps {
                 Steps::Eight => self.grow(start..end, seed + generation, self.eight())?,
                 Steps::Octagon if generation % 2 == 1 => {
@@ -127,7 +136,7 @@ impl<'a> Grid<'a> {
                 Steps::Octagon => self.grow(older..end, seed + generation, self.eight())?,
             }
             (older, start) = (start, end);
-            if self.end > end {
+            if self.queue.len() > end {
                 last = generation;
             } else if steps == Steps::Eight || generation - last == 2 {
                 break;
@@ -138,11 +147,15 @@ impl<'a> Grid<'a> {
 
     /// Begins the queue with the pixels of a label that have an open neighbour.
     fn plant(&mut self, seed: u32) -> Result<(), BlockError> {
-        self.end = 0;
+        self.queue.clear();
         let eight = self.eight();
         for y in 1..=self.height {
             self.count(self.width)?;
             let row = y * self.stride;
+            let has_seeds = self.row(y - 1).iter().fold(false, |has, label| has | (*label == seed));
+            if !has_seeds {
+                continue;
+            }
             for at in row + 1..=row + self.width {
                 let is_open = |step: &isize| self.labels[at.wrapping_add_signed(*step)] >= TWIN;
                 if self.labels[at] == seed && eight.iter().any(is_open) {
@@ -187,8 +200,7 @@ impl<'a> Grid<'a> {
 
     fn push(&mut self, at: usize) {
         // The constructor checked that all places fit.
-        self.queue[self.end] = u32::try_from(at).unwrap_or(u32::MAX);
-        self.end += 1;
+        self.queue.push(u32::try_from(at).unwrap_or(u32::MAX));
     }
 
     /// Where a pixel is whose twin may be in the frame.
@@ -218,7 +230,7 @@ impl<'a> Grid<'a> {
             for at in row + 1..=row + self.width {
                 if (1..SEEN).contains(&self.labels[at]) {
                     let highest = self.gather(at)?;
-                    for i in 0..self.end {
+                    for i in 0..self.queue.len() {
                         let at = self.queue[i] as usize;
                         let value = rule(self.labels[at] - SEEN, highest);
                         write(at % self.stride - 1, at / self.stride - 1, value);
@@ -233,9 +245,9 @@ impl<'a> Grid<'a> {
     /// Fills the queue with the part that a pixel belongs to. Returns its highest label.
     fn gather(&mut self, first: usize) -> Result<u32, BlockError> {
         let (eight, mut highest, mut next) = (self.eight(), 0, 0);
-        self.end = 0;
+        self.queue.clear();
         self.see(first);
-        while next < self.end {
+        while next < self.queue.len() {
             let at = self.queue[next] as usize;
             next += 1;
             self.count(1)?;

@@ -121,6 +121,10 @@ impl Block for HairTransition {
         }
         Ok(())
     }
+
+    fn memory(_: &Params, width: u32, height: u32) -> u64 {
+        Grid::bytes(width, height)
+    }
 }
 
 impl HairTransition {
