@@ -13,6 +13,10 @@ mod wrinkles;
 
 use ptlib_plugin::export_plugin;
 
+pub use region::{hair_mask::HairMask, hair_transition::HairTransition};
+pub use skin::{
+    blend_normals::BlendNormals, fine_wrinkles::FineWrinkles, height_to_normal::HeightToNormal,
+};
 pub use wrinkles::{age_height::AgeHeight, grammar, wrinkle_map::WrinkleMap};
 
 export_plugin! {
@@ -22,6 +26,11 @@ export_plugin! {
     license: c"MIT OR Apache-2.0",
     blocks: [
         AgeHeight,
+        BlendNormals,
+        FineWrinkles,
+        HairMask,
+        HairTransition,
+        HeightToNormal,
         WrinkleMap,
     ],
 }
