@@ -141,25 +141,26 @@ type Faults = Result<Vec<String>, Error>;
 struct Subject {
     engine: Engine,
     blocks: Vec<&'static BlockSpec>,
-    warnings: Arc<Mutex<Vec<String>>>,
+    defects: Arc<Mutex<Vec<String>>>,
 }
 
 impl Subject {
     fn load(plugin: &Path) -> Result<Self, Error> {
         let engine = Engine::new(EngineOptions { cache_bytes: 0, ..Default::default() });
-        let warnings: Arc<Mutex<Vec<String>>> = Arc::default();
-        let heard = Arc::clone(&warnings);
+        let defects: Arc<Mutex<Vec<String>>> = Arc::default();
+        let heard = Arc::clone(&defects);
         let log = move |_, message: &str| {
             heard.lock().unwrap_or_else(PoisonError::into_inner).push(message.to_owned());
         };
-        engine.set_log(Some((LogLevel::Warning, Arc::new(log))));
+        // A block may warn of what it was given; what the engine logs as an error is a defect.
+        engine.set_log(Some((LogLevel::Error, Arc::new(log))));
         let info = engine.load_plugin(plugin)?;
         let registry = engine.registry();
         let is_own = |spec: &&BlockSpec| {
             registry.plugin_of(spec.about.id).is_some_and(|own: &PluginInfo| own == info)
         };
         let blocks = registry.blocks().into_iter().filter(is_own).collect();
-        Ok(Self { engine, blocks, warnings })
+        Ok(Self { engine, blocks, defects })
     }
 
     fn loaded(&self, took: Duration) -> Faults {
@@ -197,8 +198,8 @@ impl Subject {
     }
 
     /// What was warned of since this was asked last.
-    fn warnings(&self) -> Vec<String> {
-        std::mem::take(&mut self.warnings.lock().unwrap_or_else(PoisonError::into_inner))
+    fn defects(&self) -> Vec<String> {
+        std::mem::take(&mut self.defects.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
@@ -265,7 +266,7 @@ impl Specimen<'_> {
             let Some(graph) = self.graph(&self.default_values(), all)? else { return Ok(faults) };
             for precision in [Precision::EightBit, Precision::Float] {
                 self.compute(&graph, || options((64, 64), Some(precision), 0))?;
-                faults.extend(self.subject.warnings());
+                faults.extend(self.subject.defects());
             }
         }
         Ok(faults)
@@ -298,7 +299,7 @@ impl Specimen<'_> {
             {
                 faults.push(with(&error.to_string()));
             }
-            faults.extend(self.subject.warnings().iter().map(|warning| with(warning)));
+            faults.extend(self.subject.defects().iter().map(|defect| with(defect)));
         }
         Ok(faults)
     }

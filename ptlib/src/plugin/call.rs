@@ -130,7 +130,7 @@ impl<'a> Call<'a> {
             "`{what}` of the plug-in ran for {took} ms and never asked whether to stop: it has \
              to ask `is_cancelled` every millisecond"
         );
-        (self.means.tell)(LogLevel::Warning, Error::new(ErrorKind::PluginFailed, message));
+        (self.means.tell)(LogLevel::Error, Error::new(ErrorKind::PluginFailed, message));
     }
 
     /// The error of a status.

@@ -233,7 +233,7 @@ impl<'a, 'g> Execution<'a, 'g> {
     fn tell_strange(&self, node: &Node<'_>, count: u64) {
         if count > 0 {
             let message = format!("gave {count} numbers that are not finite; they became 0");
-            self.tell(node, LogLevel::Warning, Error::new(ErrorKind::Internal, message));
+            self.tell(node, LogLevel::Error, Error::new(ErrorKind::Internal, message));
         }
     }
 

@@ -32,7 +32,7 @@ impl WholeBlock for LoadFile {
     type Params = Params;
 
     fn compute<L: Levels>(params: &Params, cx: &WholeContext<'_>) -> Result<Vec<Value>, Error> {
-        let picture = cx.read_image(&params.path)?;
+        let picture = cx.read_image(&params.path).map_err(|error| error.at_parameter("path"))?;
         // A grey picture is made once and given as red, green and blue.
         let planes = picture.planes().min(3);
         let image = cx.stretched::<L>(&picture, planes, params.interpolation)?;
