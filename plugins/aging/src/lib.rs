@@ -13,6 +13,10 @@ mod wrinkles;
 
 use ptlib_plugin::export_plugin;
 
+pub use hair::{
+    grey_hair::GreyHair, grow_strands::GrowStrands, hair_at_age::HairAtAge,
+    save_strands::SaveStrands, scatter_hair::ScatterHair,
+};
 pub use wrinkles::age_height::AgeHeight;
 
 export_plugin! {
@@ -22,6 +26,11 @@ export_plugin! {
     license: c"MIT OR Apache-2.0",
     blocks: [
         AgeHeight,
+        GreyHair,
+        GrowStrands,
+        HairAtAge,
+        SaveStrands,
+        ScatterHair,
     ],
 }
 
