@@ -1,8 +1,9 @@
-//! Colours hairs by age: each begins to turn grey at an age of its own, and is grey when it is lost.
+//! Colours hairs by age: each begins to turn grey at an age of its own, and is grey when it is
+//! lost.
 //!
-//! The onset of a hair that is lost at age a is a·lerp(from, to, random), so no hair falls out before
-//! it has turned grey, unless that is asked for. At age 0 every hair has the base colour, bit for
-//! bit.
+//! The onset of a hair that is lost at age a is a·lerp(from, to, random), so no hair falls out
+//! before it has turned grey, unless that is asked for. At age 0 every hair has the base colour,
+//! bit for bit.
 
 use ptlib_plugin::{
     AnyStream,
@@ -47,8 +48,8 @@ params! {
         grey_green "grey color green": float [hard 0.0..=1.0 soft 0.0..=1.0] = 0.75;
         /// Blue of grey hair.
         grey_blue "grey color blue": float [hard 0.0..=1.0 soft 0.0..=1.0] = 0.78;
-        /// When the first hairs begin to turn grey, as a part of the age at which they are lost. 0 is
-        /// from birth, 1 never. If it is above `onset to`, the two change places.
+        /// When the first hairs begin to turn grey, as a part of the age at which they are lost. 0
+        /// is from birth, 1 never. If it is above `onset to`, the two change places.
         onset_from "onset from": float [hard 0.0..=1.0 soft 0.0..=1.0] = 0.25;
         /// When the last hairs begin to turn grey, as a part of the age at which they are lost.
         onset_to "onset to": float [hard 0.0..=1.0 soft 0.0..=1.0] = 0.75;
@@ -234,6 +235,25 @@ mod tests {
         // A colour that is there is replaced.
         let young = grey(once, &[("age", 0.0)]).unwrap();
         assert!(floats(&young, "color").iter().all(|color| color[..] == YOUNG));
+    }
+
+    #[test]
+    fn one_age_serves_all_and_threads_do_not_matter() {
+        let points = testing::equal_points(10_000, 0.5);
+        let mut scene = Scene::of_points(points);
+        let block = scene.behind("aging.grey hair", scene.source);
+        scene.graph.set(block, "age", ParamValue::Float(0.25)).unwrap();
+        let first = scene.value_on(block, 1).unwrap();
+        let colors = floats(&first, "color");
+        let mut expected = super::tests::block(0.25, 0.0, Completes::AtLoss);
+        expected.onset = [0.25, 0.75];
+        for (i, color) in [(0, &colors[0]), (8192, &colors[8192])] {
+            let random = f32::from(u16::try_from(i).unwrap()) / 65_536.0;
+            assert_eq!(color[..], expected.color(0.5, random));
+        }
+        for threads in [2, 3, 8] {
+            assert_eq!(scene.value_on(block, threads).unwrap().content(), first.content());
+        }
     }
 
     #[test]

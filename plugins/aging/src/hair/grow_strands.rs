@@ -1,7 +1,7 @@
 //! Grows a strand from each root: straight along its direction, or drooping.
 //!
-//! Lengths are in diagonals of the points' bounds, so that a head of any size has the same hair. Each
-//! hair's length varies by its id alone.
+//! Lengths are in diagonals of the points' bounds, so that a head of any size has the same hair.
+//! Each hair's length varies by its id alone.
 
 use ptlib_plugin::{
     Stream,
@@ -23,13 +23,14 @@ const MOST: usize = 256 << 20;
 params! {
     /// Parameters of `grow strands`.
     Params {
-        /// How long hair is, in diagonals of the box around all roots. 0 makes points of all strands.
+        /// How long hair is, in diagonals of the box around all roots. 0 makes points of all
+        /// strands.
         length: float [hard 0.0..=10.0 soft 0.0..=0.3 unit "diagonals"] = 0.05;
         /// How thick hair is at its root, in diagonals of the box around all roots; it ends in a
         /// point.
         thickness: float [hard 0.0..=1.0 soft 0.0..=0.002 unit "diagonals"] = 0.0005;
-        /// By which part hairs are shorter at the most. 0 makes all as long, 1 lets some have almost
-        /// no length.
+        /// By which part hairs are shorter at the most. 0 makes all as long, 1 lets some have
+        /// almost no length.
         variation: float [hard 0.0..=1.0 soft 0.0..=1.0] = 0.2;
         /// Pieces of a hair. One is enough for straight hair; more let drooping hair bend.
         segments: int [hard 1..=64 soft 1..=16] = 1;
@@ -184,7 +185,7 @@ mod tests {
         assert_eq!(points_of(&strands, 1), expected);
         let radii = strands.point_streams()[1].floats();
         assert_eq!([0, 1, 2].map(|i| radii.at(i)[0]), [0.005, 0.0025, 0.0]);
-        let ids: Vec<_> = strands.strand_streams().iter().map(|stream| stream.id()).collect();
+        let ids: Vec<_> = strands.strand_streams().iter().map(ptlib::value::Stream::id).collect();
         assert_eq!(ids, ["loss age", "texcoord", "id"]);
     }
 

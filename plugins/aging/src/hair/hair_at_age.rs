@@ -20,8 +20,8 @@ const SLICES: [&CStr; 6] = [c"position", c"direction", c"texcoord", c"loss age",
 params! {
     /// Parameters of `hair at age`.
     Params {
-        /// The age: hairs that are lost before it are gone. 0 keeps all, 1 keeps those that are never
-        /// lost.
+        /// The age: hairs that are lost before it are gone. 0 keeps all, 1 keeps those that are
+        /// never lost.
         age: float [hard 0.0..=1.0 soft 0.0..=1.0] = 0.5;
     }
 }
@@ -223,6 +223,16 @@ mod tests {
         assert_eq!(at(points.clone(), 0.3).unwrap().content(), points.content());
         assert!(randoms(&at(points, 0.5).unwrap()).is_empty());
         assert!(randoms(&at(testing::points(&[]), 0.5).unwrap()).is_empty());
+    }
+
+    #[test]
+    fn one_age_serves_all() {
+        let points = testing::equal_points(5, 0.5);
+        assert_eq!(at(points.clone(), 0.5).unwrap().content(), points.content());
+        let none = at(points, 0.6).unwrap();
+        let Value::Points(points) = &none else { panic!("points") };
+        assert_eq!((points.count(), points.streams().len()), (0, 4));
+        assert_eq!(points.stream("radius").unwrap().floats().at(0), [0.5]);
     }
 
     #[test]

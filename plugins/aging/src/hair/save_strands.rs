@@ -1,8 +1,8 @@
 //! Writes hair into a file that modelling programs and renderers read.
 //!
-//! Only below the folders that the caller of the engine opened for writing. Numbers in texts are the
-//! shortest that read back to the same bits; binary numbers are little endian. The thickness of a
-//! hair is twice its radius.
+//! Only below the folders that the caller of the engine opened for writing. Numbers in texts are
+//! the shortest that read back to the same bits; binary numbers are little endian. The thickness of
+//! a hair is twice its radius.
 
 use ptlib_plugin::prelude::*;
 
@@ -31,7 +31,8 @@ choice! {
 params! {
     /// Parameters of `save strands`.
     Params {
-        /// The file to write, below a folder that is open for writing. A file that is there is replaced.
+        /// The file to write, below a folder that is open for writing. A file that is there is
+        /// replaced.
         path: path [write] = "";
         /// What kind of file it is, whatever its name.
         format: choice [Format] = Format::Ply;

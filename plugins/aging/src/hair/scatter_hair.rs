@@ -2,9 +2,9 @@
 //!
 //! Every triangle gets hairs by its area, at random places that depend on the triangle and the
 //! hair's number on it alone: more hairs keep the earlier ones, and neither the size of the images
-//! nor the number of threads moves any. The age of loss is that of the pixel under the root, without
-//! a filter, so that hair which is never lost stays so. Roots come sorted by that age, the last to
-//! be lost first: those alive at any age are a prefix.
+//! nor the number of threads moves any. The age of loss is that of the pixel under the root,
+//! without a filter, so that hair which is never lost stays so. Roots come sorted by that age, the
+//! last to be lost first: those alive at any age are a prefix.
 
 use ptlib_plugin::{
     prelude::*,
@@ -38,8 +38,8 @@ params! {
         /// Hairs on a square unit of the mesh; above 0, it replaces `hairs`, and meshes of any size
         /// are equally hairy. 0 leaves it to `hairs`.
         per_area "per area": float [hard 0.0..=1e12 soft 0.0..=1e6] = 0.0;
-        /// How far hairs lean away from the normal of the skin at the most. 0 makes all stand upright,
-        /// 90 lets some lie flat.
+        /// How far hairs lean away from the normal of the skin at the most. 0 makes all stand
+        /// upright, 90 lets some lie flat.
         spread: float [hard 0.0..=90.0 soft 0.0..=45.0 unit "degrees"] = 10.0;
     }
 }

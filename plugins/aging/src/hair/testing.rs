@@ -38,6 +38,20 @@ pub fn points(ages: &[f32]) -> Value {
     Value::Points(Arc::new(Points::new(count, streams, &Limits::default()).unwrap()))
 }
 
+/// Points that all have one age of loss and one radius.
+pub fn equal_points(count: u16, age: f32) -> Value {
+    let positions: Vec<f32> = (0..count).flat_map(|i| [f32::from(i), 0.0, 0.0]).collect();
+    let randoms: Vec<f32> = (0..count).map(|i| f32::from(i) / 65_536.0).collect();
+    let streams = vec![
+        stream(StreamShape::floats("position", 3), &positions),
+        stream(StreamShape::floats("random", 1), &randoms),
+        stream(StreamShape::floats("loss age", 1).constant(), &[age]),
+        stream(StreamShape::floats("radius", 1).constant(), &[0.5]),
+    ];
+    let points = Points::new(u32::from(count), streams, &Limits::default()).unwrap();
+    Value::Points(Arc::new(points))
+}
+
 /// Points that only have positions.
 pub fn bare_points(count: u16) -> Value {
     let positions: Vec<f32> = (0..count).flat_map(|i| [f32::from(i), 0.0, 0.0]).collect();

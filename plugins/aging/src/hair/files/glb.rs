@@ -129,8 +129,8 @@ impl Contents {
         number
     }
 
-    /// The JSON, as long as its chunk has to be. A list of glTF has at least one element, so of no hair
-    /// there is not even a scene.
+    /// The JSON, as long as its chunk has to be. A list of glTF has at least one element, so of no
+    /// hair there is not even a scene.
     fn json(&self, hairs: &Hairs<'_>) -> String {
         let asset = format!(
             "\"asset\":{{\"version\":\"2.0\",\"generator\":\"ptlib aging 1, seed {}\"}}",

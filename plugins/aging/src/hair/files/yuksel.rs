@@ -1,7 +1,7 @@
 //! Cem Yuksel's HAIR files, which renderers read: strands only, and no ages.
 //!
-//! <http://www.cemyuksel.com/research/hairmodels>: a header of 128 bytes; segments of each strand as
-//! u16; then of each point: position, thickness, transparency, colour, those whose bit is set.
+//! <http://www.cemyuksel.com/research/hairmodels>: a header of 128 bytes; segments of each strand
+//! as u16; then of each point: position, thickness, transparency, colour, those whose bit is set.
 
 use ptlib_plugin::prelude::*;
 

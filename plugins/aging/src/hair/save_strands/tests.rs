@@ -1,4 +1,5 @@
-//! Files that are read back: by the readers of others where there are such, by small ones here else.
+//! Files that are read back: by the readers of others where there are such, by small ones here
+//! else.
 
 use std::{
     fs,

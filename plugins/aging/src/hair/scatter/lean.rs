@@ -1,9 +1,9 @@
 //! In which direction a hair leaves the skin: along the normal, leaning a random way.
 //!
 //! The end of the lean is spread evenly over a disk: its distance from the middle is the root of a
-//! random number. The frame is made from the normal alone (Duff and others, "Building an Orthonormal
-//! Basis, Revisited", Journal of Computer Graphics Techniques 6(1), 2017), so that it needs no
-//! tangents.
+//! random number. The frame is made from the normal alone (Duff and others, "Building an
+//! Orthonormal Basis, Revisited", Journal of Computer Graphics Techniques 6(1), 2017), so that it
+//! needs no tangents.
 
 use std::f64::consts::TAU;
 

@@ -52,6 +52,30 @@ fn hairs_are_sorted_by_age_and_then_by_id() {
 }
 
 #[test]
+fn hairs_at_an_age_are_a_prefix_and_grow_never_more() {
+    let (mut scene, block) = scene(field(12, 0.2));
+    scene.graph.set(block, "hairs", ParamValue::Int(5000)).unwrap();
+    let (all, loss) = {
+        let points = scene.value(block).unwrap();
+        (ids(&points), floats(&points, "loss age"))
+    };
+    let left = scene.behind("aging.hair at age", block);
+    let mut counts = vec![];
+    for age in [0.0, 0.1, 0.51, 0.625, 0.7, 0.99, 1.0] {
+        scene.graph.set(left, "age", ParamValue::Float(age)).unwrap();
+        let found = ids(&scene.value(left).unwrap());
+        assert_eq!(found, all[..found.len()]);
+        let expected = loss.iter().filter(|loss| f64::from(loss[0]) >= age).count();
+        assert_eq!(found.len(), expected, "{age}");
+        counts.push(found.len());
+    }
+    assert!(counts.is_sorted_by(|a, b| a >= b), "{counts:?}");
+    // Those that are never lost are there at every age.
+    assert_eq!(counts[6], loss.iter().filter(|loss| loss[0] == 1.0).count());
+    assert!(counts[6] > 2000 && counts[0] == all.len());
+}
+
+#[test]
 fn roots_lie_in_their_triangles_where_hair_grows() {
     let side = 9;
     let (mut scene, block) = scene(field(side, 0.0));
