@@ -115,6 +115,23 @@ pub fn field(side: u32, deep: f32) -> Value {
     mesh_of(positions.len() / 3, streams, &triangles)
 }
 
+/// The same mesh, with vertices of 8 numbers: position, texture coordinates, normal.
+pub fn interleaved(mesh: &Value) -> Value {
+    let Value::Mesh(mesh) = mesh else { panic!("a mesh") };
+    let ids = [("position", 3, 0), ("texcoord", 2, 3), ("normal", 3, 5)];
+    let count = mesh.vertex_count() as usize;
+    let words: Vec<u32> = (0..count)
+        .flat_map(|i| ids.map(|(id, ..)| mesh.stream(id).unwrap().words().at(i)).concat())
+        .collect();
+    let streams = ids.map(|(id, components, first)| {
+        let words = Words::copy_of(&words[first..]).unwrap();
+        Stream::new(StreamShape::floats(id, components), words, 32, count).unwrap()
+    });
+    let triangles: Vec<[u32; 3]> =
+        mesh.indices().chunks_exact(3).map(|corners| corners.try_into().unwrap()).collect();
+    mesh_of(count, streams.to_vec(), &triangles)
+}
+
 /// A grey image of a function of the pixel.
 pub fn image(side: u32, level: impl Fn(u32, u32) -> f32) -> Value {
     let mut image = Image::new(&BufferPool::new(), side, side, 1).unwrap();

@@ -1,6 +1,6 @@
 //! What hair grows on: the triangles of a mesh, and the images that say where and how dense.
 
-use ptlib_plugin::{Image, Mesh, Stream, prelude::*};
+use ptlib_plugin::{Element, Image, Mesh, Stream, prelude::*};
 
 use crate::hair::vector::{Vector, between, cross, direction, length, minus, wide};
 
@@ -12,9 +12,9 @@ const SHORTEST: f64 = 1e-6;
 pub struct Ground<'a> {
     /// The corners of the triangles.
     pub triangles: &'a [[u32; 3]],
-    positions: Stream<'a, [f32; 3]>,
-    texcoords: Stream<'a, [f32; 2]>,
-    normals: Option<Stream<'a, [f32; 3]>>,
+    positions: Corners<'a, [f32; 3]>,
+    texcoords: Corners<'a, [f32; 2]>,
+    normals: Option<Corners<'a, [f32; 3]>>,
     loss_age: Image<'a>,
     density: Option<Image<'a>>,
 }
@@ -36,14 +36,19 @@ impl<'a> Ground<'a> {
                  of a `mesh input` gives them as the stream \"texcoord\"",
             )
         })?;
-        let (positions, normals) = (mesh.positions()?, mesh.normals());
-        let triangles = mesh.triangles();
-        Ok(Self { triangles, positions, texcoords, normals, loss_age, density })
+        Ok(Self {
+            triangles: mesh.triangles(),
+            positions: Corners::of(mesh.positions()?),
+            texcoords: Corners::of(texcoords),
+            normals: mesh.normals().map(Corners::of),
+            loss_age,
+            density,
+        })
     }
 
     #[inline(always)]
     fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {
-        self.triangles[triangle].map(|vertex| self.positions.get(vertex as usize))
+        self.positions.of_triangle(self.triangles[triangle])
     }
 
     /// The vector product of two edges: away from the front, twice as long as the area is large.
@@ -61,7 +66,7 @@ impl<'a> Ground<'a> {
     /// The texture coordinates of the corners.
     #[inline(always)]
     pub fn texcoords(&self, triangle: usize) -> [[f32; 2]; 3] {
-        self.triangles[triangle].map(|vertex| self.texcoords.get(vertex as usize))
+        self.texcoords.of_triangle(self.triangles[triangle])
     }
 
     /// The point of a triangle at these weights of its second and third corner.
@@ -74,11 +79,10 @@ impl<'a> Ground<'a> {
     /// whose normals cancel each other or are not there.
     #[inline(always)]
     pub fn normal(&self, triangle: usize, weights: [f64; 2]) -> Vector {
+        let corners = self.triangles[triangle];
         self.normals
-            .and_then(|normals| {
-                let corners = self.triangles[triangle].map(|vertex| normals.get(vertex as usize));
-                direction(between(corners, weights), SHORTEST)
-            })
+            .as_ref()
+            .and_then(|normals| direction(between(normals.of_triangle(corners), weights), SHORTEST))
             .or_else(|| direction(self.front(triangle), 0.0))
             .unwrap_or([0.0, 1.0, 0.0])
     }
@@ -95,6 +99,27 @@ impl<'a> Ground<'a> {
     #[inline(always)]
     pub fn density(&self, texcoord: [f64; 2]) -> Option<f64> {
         self.density.as_ref().map(|density| f64::from(pixel(density, texcoord)))
+    }
+}
+
+/// What each vertex has. Elements that lie one after the other are read as a slice, which is faster.
+#[derive(Debug)]
+struct Corners<'a, T> {
+    stream: Stream<'a, T>,
+    slice: Option<&'a [T]>,
+}
+
+impl<'a, T: Element> Corners<'a, T> {
+    fn of(stream: Stream<'a, T>) -> Self {
+        Self { stream, slice: stream.as_slice() }
+    }
+
+    #[inline(always)]
+    fn of_triangle(&self, vertices: [u32; 3]) -> [T; 3] {
+        match self.slice {
+            Some(slice) => vertices.map(|vertex| slice[vertex as usize]),
+            None => vertices.map(|vertex| self.stream.get(vertex as usize)),
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use ptlib::{ErrorKind, params::ParamValue, value::Value};
 
 use crate::{
-    hair::testing::{Scene, bare_mesh, field, floats, ids, image, mesh},
+    hair::testing::{Scene, bare_mesh, field, floats, ids, image, interleaved, mesh},
     testing::engine,
 };
 
@@ -206,6 +206,16 @@ fn threads_do_not_matter() {
     scene.graph.set(block, "hairs", ParamValue::Int(50_000)).unwrap();
     let first = scene.value_on(block, 1).unwrap();
     assert_eq!(scene.value_on(block, 3).unwrap().content(), first.content());
+}
+
+#[test]
+fn vertices_of_a_renderer_give_the_same_hair() {
+    let planar = field(9, 0.4);
+    let [first, second] = [planar.clone(), interleaved(&planar)].map(|mesh| {
+        let (scene, block) = scene(mesh);
+        scene.value(block).unwrap().content()
+    });
+    assert_eq!(first, second);
 }
 
 #[test]
