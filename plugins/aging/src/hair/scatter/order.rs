@@ -12,9 +12,12 @@ const DIGIT_BITS: u32 = 10;
 const DIGITS: usize = 3;
 const BUCKETS: usize = 1 << DIGIT_BITS;
 
+/// Hairs between two questions whether to go on.
+const PIECE: usize = 1 << 16;
+
 #[inline(always)]
 fn digit(key: u32, place: usize) -> usize {
-    (key >> (DIGIT_BITS * [0, 1, 2][place])) as usize & (BUCKETS - 1)
+    (key >> [0, DIGIT_BITS, 2 * DIGIT_BITS][place]) as usize & (BUCKETS - 1)
 }
 
 /// The first `count` hairs, sorted by their keys.
@@ -27,14 +30,16 @@ pub fn sorted<'a>(
     work: Work<'a>,
 ) -> Result<Scratch<'a, Hair>, BlockError> {
     let mut counts = [[0_u32; BUCKETS]; DIGITS];
-    for [key, ..] in &hairs[..count] {
-        for (place, counts) in counts.iter_mut().enumerate() {
-            counts[digit(*key, place)] += 1;
+    for piece in hairs[..count].chunks(PIECE) {
+        work.check()?;
+        for [key, ..] in piece {
+            for (place, counts) in counts.iter_mut().enumerate() {
+                counts[digit(*key, place)] += 1;
+            }
         }
     }
     let mut other = work.scratch::<Hair>(count)?;
     for (place, counts) in counts.iter_mut().enumerate() {
-        work.check()?;
         if counts.iter().any(|in_one| *in_one as usize == count) {
             // All have the same digit.
             continue;
@@ -43,10 +48,13 @@ pub fn sorted<'a>(
         for counted in counts.iter_mut() {
             first += mem::replace(counted, first);
         }
-        for hair in &hairs[..count] {
-            let next = &mut counts[digit(hair[0], place)];
-            other[*next as usize] = *hair;
-            *next += 1;
+        for piece in hairs[..count].chunks(PIECE) {
+            work.check()?;
+            for hair in piece {
+                let next = &mut counts[digit(hair[0], place)];
+                other[*next as usize] = *hair;
+                *next += 1;
+            }
         }
         mem::swap(&mut hairs, &mut other);
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use ptlib::{ErrorKind, params::ParamValue, value::Value};
+use ptlib::{Engine, EngineOptions, ErrorKind, Limits, params::ParamValue, value::Value};
 
 use crate::{
     hair::testing::{Scene, bare_mesh, field, floats, ids, image, interleaved, mesh},
@@ -250,6 +250,31 @@ fn what_cannot_carry_hair_is_refused() {
     let (mut scene, block) = scene(field(2, 0.0));
     let over = ParamValue::Int((64 << 20) + 1);
     assert!(scene.graph.set(block, "hairs", over).is_err());
+}
+
+#[test]
+#[allow(unsafe_code, reason = "the tables of the plug-in are given as a pointer")]
+fn memory_is_counted_before_it_is_taken() {
+    let limits = Limits { memory_bytes: 32 << 20, ..Limits::default() };
+    let engine = Engine::new(EngineOptions { limits, ..EngineOptions::default() });
+    // SAFETY: the entry is a static of this crate, made by the SDK.
+    unsafe { engine.register_plugin(&raw const crate::ptl_plugin_entry_v1) }.unwrap();
+    let (mut scene, block) = Scene::of_mesh(engine, field(2, 0.0), image(64, |_, _| 1.0));
+    scene.graph.set(block, "hairs", ParamValue::Int(64 << 20)).unwrap();
+    let error = scene.value(block).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Limit, "{error}");
+}
+
+#[test]
+fn what_is_no_age_is_refused_or_no_hair() {
+    for (level, is_hairy) in [(2.0, true), (-1.0, false), (f32::NAN, false)] {
+        let (mut scene, block) = Scene::of_mesh(engine(), field(2, 0.0), image(64, |_, _| level));
+        scene.graph.set(block, "hairs", ParamValue::Int(100)).unwrap();
+        if let Ok(points) = scene.value(block) {
+            assert_eq!(!ids(&points).is_empty(), is_hairy, "{level}");
+            assert!(floats(&points, "loss age").iter().all(|age| age[0] <= 1.0));
+        }
+    }
 }
 
 #[test]
