@@ -29,6 +29,10 @@ const DENSITY: usize = 2;
 /// The channel of the random number that a hair keeps.
 const KEPT: u32 = 5;
 
+/// Bytes of a hair at the peak: 48 of its point, 12 of its place in the order. (Those of the sort,
+/// twice 12, are gone by then.)
+const BYTES: u64 = 60;
+
 params! {
     /// Parameters of `scatter hair`.
     Params {
@@ -83,6 +87,11 @@ impl Block for ScatterHair {
             Amount::Hairs(f64::from(params.hairs))
         };
         Ok(Self { amount, spread: params.spread, seed: setup.seed() })
+    }
+
+    fn memory(params: &Params, _: u32, _: u32) -> u64 {
+        // How many `per area` makes, only the mesh can tell.
+        if params.per_area > 0.0 { 0 } else { u64::from(params.hairs.unsigned_abs()) * BYTES }
     }
 
     fn compute(&self, call: &mut Call<'_>) -> Result<(), BlockError> {

@@ -263,6 +263,11 @@ fn memory_is_counted_before_it_is_taken() {
     scene.graph.set(block, "hairs", ParamValue::Int(64 << 20)).unwrap();
     let error = scene.value(block).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Limit, "{error}");
+    // Without `hairs`, when the places are known.
+    scene.graph.set(block, "per area", ParamValue::Float(1e7)).unwrap();
+    let error = scene.value(block).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Limit, "{error}");
+    assert!(error.message().contains("scratch"), "{error}");
 }
 
 #[test]
