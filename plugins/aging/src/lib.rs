@@ -5,7 +5,7 @@
 //! `hair` grows strands on them, and `view` shows it all.
 
 mod hair;
-mod mesh;
+pub mod mesh;
 mod region;
 mod skin;
 mod view;
@@ -13,10 +13,19 @@ mod wrinkles;
 
 use ptlib_plugin::export_plugin;
 
+pub use hair::{
+    grey_hair::GreyHair, grow_strands::GrowStrands, hair_at_age::HairAtAge,
+    save_strands::SaveStrands, scatter_hair::ScatterHair,
+};
+pub use mesh::{
+    load_mesh::LoadMesh, mesh_frames::MeshFrames, mesh_input::MeshInput,
+    sphere_coordinates::SphereCoordinates,
+};
 pub use region::{hair_mask::HairMask, hair_transition::HairTransition};
 pub use skin::{
     blend_normals::BlendNormals, fine_wrinkles::FineWrinkles, height_to_normal::HeightToNormal,
 };
+pub use view::head_view::HeadView;
 pub use wrinkles::{age_height::AgeHeight, grammar, wrinkle_map::WrinkleMap};
 
 export_plugin! {
@@ -28,11 +37,21 @@ export_plugin! {
         AgeHeight,
         BlendNormals,
         FineWrinkles,
+        GreyHair,
+        GrowStrands,
+        HairAtAge,
         HairMask,
         HairTransition,
+        HeadView,
         HeightToNormal,
+        LoadMesh,
+        MeshFrames,
+        SaveStrands,
+        ScatterHair,
+        SphereCoordinates,
         WrinkleMap,
     ],
+    inputs: [MeshInput],
 }
 
 #[cfg(test)]
