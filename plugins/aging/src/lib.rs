@@ -5,7 +5,7 @@
 //! `hair` grows strands on them, and `view` shows it all.
 
 mod hair;
-mod mesh;
+pub mod mesh;
 mod region;
 mod skin;
 mod view;
@@ -13,6 +13,10 @@ mod wrinkles;
 
 use ptlib_plugin::export_plugin;
 
+pub use mesh::{
+    load_mesh::LoadMesh, mesh_frames::MeshFrames, mesh_input::MeshInput,
+    sphere_coordinates::SphereCoordinates,
+};
 pub use wrinkles::age_height::AgeHeight;
 
 export_plugin! {
@@ -22,7 +26,11 @@ export_plugin! {
     license: c"MIT OR Apache-2.0",
     blocks: [
         AgeHeight,
+        LoadMesh,
+        MeshFrames,
+        SphereCoordinates,
     ],
+    inputs: [MeshInput],
 }
 
 #[cfg(test)]
