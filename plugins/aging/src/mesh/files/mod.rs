@@ -9,6 +9,8 @@
 //! fans around their first corner. The order is that of the file.
 
 mod accessor;
+#[cfg(test)]
+mod example;
 pub mod gltf;
 pub mod obj;
 pub mod ply;
