@@ -10,7 +10,7 @@
 //! Sums are in double precision and in the order of triangles, gathered by each vertex.
 
 use ptlib_plugin::{
-    Stream,
+    Element, Plain, Scratch, Stream,
     prelude::*,
     stream::{NORMAL, TANGENT},
 };
@@ -70,8 +70,11 @@ impl Block for MeshFrames {
             _ => true,
         };
         let kept: Vec<_> = mesh.streams().iter().filter(|stream| is_kept(stream.id())).collect();
+        let positions = Packed::new(mesh.positions()?, work)?;
+        let coordinates = texcoords.map(|stream| Packed::new(stream, work)).transpose()?;
         let surface = Surface {
-            positions: mesh.positions()?,
+            positions: positions.slice(),
+            texcoords: coordinates.as_ref().map(Packed::slice),
             triangles: mesh.triangles(),
             around: Around::new(&mesh, work)?,
         };
@@ -84,16 +87,14 @@ impl Block for MeshFrames {
             let piece = of_piece.or(out_tangents.as_ref().map(|slice| slice.len()));
             for i in 0..piece.unwrap_or_default() {
                 let vertex = first + i;
-                let normal = match normals {
-                    Some(normals) => unit(normals.get(vertex).map(f64::from)),
-                    None => unit(surface.normal(vertex)),
-                };
-                let normal = normal.unwrap_or(UP);
+                let sums = surface.sums(vertex);
+                let given = normals.map(|normals| normals.get(vertex).map(f64::from));
+                let normal = unit(given.unwrap_or(sums.area)).unwrap_or(UP);
                 if let Some(out) = &mut out_normals {
                     out[i] = normal.map(math::single);
                 }
-                if let (Some(out), Some(texcoords)) = (&mut out_tangents, texcoords) {
-                    out[i] = surface.tangent(vertex, normal, &texcoords);
+                if let Some(out) = &mut out_tangents {
+                    out[i] = sums.tangent(normal);
                 }
             }
             Ok(())
@@ -105,65 +106,92 @@ impl Block for MeshFrames {
 /// The normal of a vertex that no triangle gives one, as the library has it.
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
+/// Elements of one task.
+const TASK: usize = 4096;
+
 /// What is left of a tangent across the normal, as a part of its length, if it lies along it.
 const NOTHING: f64 = 1e-12;
 
+/// A stream whose elements lie one after the other: itself, or a copy.
+enum Packed<'a, T: Plain> {
+    Itself(&'a [T]),
+    Copy(Scratch<'a, T>),
+}
+
+impl<'a, T: Plain + Element> Packed<'a, T> {
+    fn new(stream: Stream<'a, T>, work: Work<'a>) -> Result<Self, BlockError> {
+        if let Some(slice) = stream.as_slice() {
+            return Ok(Self::Itself(slice));
+        }
+        let mut copy = work.scratch(stream.len())?;
+        work.for_each(copy.chunks_mut(TASK).enumerate(), |(task, copy)| {
+            for (i, element) in copy.iter_mut().enumerate() {
+                *element = stream.get(task * TASK + i);
+            }
+            Ok(())
+        })?;
+        Ok(Self::Copy(copy))
+    }
+
+    fn slice(&self) -> &[T] {
+        match self {
+            Self::Itself(slice) => slice,
+            Self::Copy(copy) => copy,
+        }
+    }
+}
+
 /// Triangles, and those around each vertex.
 struct Surface<'a> {
-    positions: Stream<'a, [f32; 3]>,
+    positions: &'a [[f32; 3]],
+    texcoords: Option<&'a [[f32; 2]]>,
     triangles: &'a [[u32; 3]],
     around: Around<'a>,
 }
 
+/// Sums over the triangles around a vertex.
+#[derive(Default)]
+struct Sums {
+    /// The areas, as vectors.
+    area: [f64; 3],
+    /// Where the first and the second texture coordinate grow.
+    along: [f64; 3],
+    other: [f64; 3],
+}
+
 impl Surface<'_> {
-    /// The edges from the first corner of a triangle.
-    #[inline]
-    fn edges(&self, triangle: u32) -> [[f64; 3]; 2] {
-        let corner = |i: usize| {
-            let vertex = self.triangles[triangle as usize][i];
-            self.positions.get(vertex as usize).map(f64::from)
-        };
-        let start = corner(0);
-        [difference(corner(1), start), difference(corner(2), start)]
-    }
-
-    /// The sum of the areas around a vertex, as vectors.
-    fn normal(&self, vertex: usize) -> [f64; 3] {
-        let mut sum = [0.0; 3];
+    fn sums(&self, vertex: usize) -> Sums {
+        let mut sums = Sums::default();
         for triangle in self.around.of(vertex) {
-            let [q1, q2] = self.edges(*triangle);
+            let corners = self.triangles[*triangle as usize].map(|corner| corner as usize);
+            let [start, second, third] =
+                corners.map(|corner| self.positions[corner].map(f64::from));
+            let (q1, q2) = (difference(second, start), difference(third, start));
             let area = cross(q1, q2);
-            sum = std::array::from_fn(|axis| sum[axis] + area[axis]);
-        }
-        sum
-    }
-
-    /// The tangent of a vertex whose normal has length 1.
-    fn tangent(&self, vertex: usize, n: [f64; 3], texcoords: &Stream<'_, [f32; 2]>) -> [f32; 4] {
-        let (mut along, mut other) = ([0.0; 3], [0.0; 3]);
-        for triangle in self.around.of(vertex) {
-            let corner = |i: usize| {
-                let vertex = self.triangles[*triangle as usize][i];
-                texcoords.get(vertex as usize).map(f64::from)
-            };
-            let (start, second, third) = (corner(0), corner(1), corner(2));
+            sums.area = std::array::from_fn(|axis| sums.area[axis] + area[axis]);
+            let Some(texcoords) = self.texcoords else { continue };
+            let [start, second, third] = corners.map(|corner| texcoords[corner].map(f64::from));
             let [u1, v1] = [0, 1].map(|i| second[i] - start[i]);
             let [u2, v2] = [0, 1].map(|i| third[i] - start[i]);
             let det = u1 * v2 - u2 * v1;
-            let sign = if det > 0.0 { 1.0 } else { -1.0 };
-            if det == 0.0 {
-                continue;
-            }
-            let [q1, q2] = self.edges(*triangle);
+            // A triangle whose texture has no area counts nothing.
+            let sign = if det == 0.0 { 0.0 } else { 1.0_f64.copysign(det) };
             for axis in 0..3 {
-                along[axis] += sign * (v2 * q1[axis] - v1 * q2[axis]);
-                other[axis] += sign * (u1 * q2[axis] - u2 * q1[axis]);
+                sums.along[axis] += sign * (v2 * q1[axis] - v1 * q2[axis]);
+                sums.other[axis] += sign * (u1 * q2[axis] - u2 * q1[axis]);
             }
         }
-        let left = across(along, n);
-        let is_left = dot(left, left) > NOTHING * NOTHING * dot(along, along);
+        sums
+    }
+}
+
+impl Sums {
+    /// The tangent of a vertex whose normal has length 1.
+    fn tangent(&self, n: [f64; 3]) -> [f32; 4] {
+        let left = across(self.along, n);
+        let is_left = dot(left, left) > NOTHING * NOTHING * dot(self.along, self.along);
         let tangent = unit(left).filter(|_| is_left).unwrap_or_else(|| any_across(n));
-        let side = if dot(cross(n, tangent), other) < 0.0 { -1.0 } else { 1.0 };
+        let side = if dot(cross(n, tangent), self.other) < 0.0 { -1.0 } else { 1.0 };
         let [x, y, z] = tangent.map(math::single);
         [x, y, z, side]
     }

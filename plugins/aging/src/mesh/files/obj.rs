@@ -182,16 +182,19 @@ impl Lines<'_> {
 
     /// Checks and counts the line, and shortens it to what the library understands.
     fn judge(&mut self) -> Result<(), FileError> {
-        let text = std::mem::take(&mut self.text);
+        let mut text = std::mem::take(&mut self.text);
         let mut words = text.split_ascii_whitespace();
         let word = words.next();
+        let kind = NAMES.iter().position(|name| word == Some(name));
         let line = self.line;
+        // Bytes of the line that are of use.
+        let mut used = text.len();
         match (word, words.clone().count()) {
-            (Some("v"), 3 | 4) | (Some("vt"), 2 | 3) | (Some("vn"), 3) => self.text = text.clone(),
+            (Some("v"), 3 | 4) | (Some("vt"), 2 | 3) | (Some("vn"), 3) => {}
             // The other three are a colour.
             (Some("v"), 6) => {
-                let words: Vec<_> = text.split_ascii_whitespace().take(4).collect();
-                self.text = words.join(" ");
+                let red = words.nth(3).map_or(0, |word| word.as_ptr().addr());
+                used = red.saturating_sub(text.as_ptr().addr());
             }
             (Some("v"), count) => {
                 let message = format!("v has {count} numbers, allowed are 3, 4 and 6");
@@ -207,11 +210,12 @@ impl Lines<'_> {
                 words.try_for_each(|corner| self.corner(corner))?;
                 self.triangles += corners as u64 - 2;
                 limit("triangles", self.triangles, self.limits.triangles)?;
-                self.text = text.clone();
             }
-            _ => {}
+            _ => used = 0,
         }
-        if let Some(kind) = NAMES.iter().position(|name| word == Some(name)) {
+        text.truncate(used);
+        self.text = text;
+        if let Some(kind) = kind {
             self.kinds[kind].count += 1;
             let count = self.kinds[kind].count.unsigned_abs();
             limit(&format!("lines \"{}\"", NAMES[kind]), count, self.limits.vertices)?;
