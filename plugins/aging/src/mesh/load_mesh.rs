@@ -215,6 +215,36 @@ mod tests {
     }
 
     #[test]
+    fn the_head_of_the_examples_gets_frames_and_coordinates() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/head");
+        let engine = Engine::new(EngineOptions {
+            cache_bytes: 0,
+            read_folders: vec![folder.into()],
+            ..Default::default()
+        });
+        register(&engine);
+        let mut graph = engine.new_graph();
+        let [load, frames, sphere] = ["load mesh", "mesh frames", "sphere coordinates"]
+            .map(|name| graph.add(&format!("aging.{name}")).unwrap());
+        graph.set(load, "path", ParamValue::Text("head.ply".into())).unwrap();
+        graph.connect(load, 0, frames, 0).unwrap();
+        graph.connect(frames, 0, sphere, 0).unwrap();
+        let value = engine.compute_value(&graph, sphere, 0, ComputeOptions::default()).unwrap();
+        let Value::Mesh(mesh) = value else { panic!("kind") };
+        let of = |id| testing::floats(&mesh, id);
+        let (places, tangents, around) = (of("position"), of("tangent"), of("texcoord1"));
+        for ((place, tangent), around) in places.iter().zip(&tangents).zip(&around) {
+            assert_eq!(tangent[3].to_bits(), 1.0_f32.to_bits(), "{place:?}");
+            // On the face the texture grows to the right of who looks at it, from its middle on.
+            if place[2] > 0.5 {
+                assert!(tangent[0] > 0.2, "{place:?}: {tangent:?}");
+                assert!((around[0] - 0.5).abs() < 0.13, "{place:?}: {around:?}");
+                assert!(place[0].abs() < 1e-3 || (around[0] > 0.5) == (place[0] > 0.0));
+            }
+        }
+    }
+
+    #[test]
     fn a_mesh_without_normals_and_coordinates_has_no_such_streams() {
         let folder = Folder::new("bare");
         folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

@@ -64,12 +64,9 @@ impl Block for MeshFrames {
             return call.pass(0, 0);
         }
         let makes_normals = normals.is_none();
-        let is_kept = |id| match id {
-            id if id == c"normal" => !makes_normals,
-            id if id == c"tangent" => texcoords.is_none(),
-            _ => true,
-        };
-        let kept: Vec<_> = mesh.streams().iter().filter(|stream| is_kept(stream.id())).collect();
+        let is_made =
+            |id| id == c"normal" && makes_normals || id == c"tangent" && texcoords.is_some();
+        let kept: Vec<_> = mesh.streams().iter().filter(|stream| !is_made(stream.id())).collect();
         let positions = Packed::new(mesh.positions()?, work)?;
         let coordinates = texcoords.map(|stream| Packed::new(stream, work)).transpose()?;
         let surface = Surface {
@@ -83,9 +80,8 @@ impl Block for MeshFrames {
         let count = mesh.vertex_count();
         let mut out = call.new_mesh(0, count, Triangles::Of(mesh), (kept, made))?;
         out.fill(|first, (_, (mut out_normals, mut out_tangents))| {
-            let of_piece = out_normals.as_ref().map(|slice| slice.len());
-            let piece = of_piece.or(out_tangents.as_ref().map(|slice| slice.len()));
-            for i in 0..piece.unwrap_or_default() {
+            let made = out_normals.as_ref().map_or(0, |slice| slice.len());
+            for i in 0..out_tangents.as_ref().map_or(made, |slice| slice.len()) {
                 let vertex = first + i;
                 let sums = surface.sums(vertex);
                 let given = normals.map(|normals| normals.get(vertex).map(f64::from));
@@ -242,7 +238,11 @@ fn any_across(n: [f64; 3]) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use ptlib::{params::ParamValue, value::Mesh};
+    use ptlib::{
+        Limits,
+        params::ParamValue,
+        value::{Mesh, Stream, StreamShape, Value, Words},
+    };
 
     use crate::mesh::testing::{Sample, compute, compute_on, floats};
 
@@ -352,7 +352,7 @@ mod tests {
         sample.tangents = vec![[0.0, 1.0, 0.0, -1.0]; 3];
         let value = sample.value();
         let kept = compute("aging.mesh frames", value.clone(), &[]).unwrap();
-        assert_eq!(ptlib::value::Value::Mesh(kept).content(), value.content());
+        assert_eq!(Value::Mesh(kept).content(), value.content());
         let mesh = replaced(&sample);
         assert!(near(&floats(&mesh, "normal")[0], &[0.0, -0.447_213_6, 0.894_427_2]));
         assert!(near(&floats(&mesh, "tangent")[0], &[1.0, 0.0, 0.0, 1.0]));
@@ -363,6 +363,26 @@ mod tests {
     }
 
     #[test]
+    fn interleaved_vertices_are_read_where_they_lie() {
+        let sample = triangle();
+        let plain = frames(&sample);
+        let rows = sample.positions.iter().zip(&sample.texcoords);
+        let rows = rows.flat_map(|([x, y, z], [u, v])| [*u, *v, *x, *y, *z]);
+        let words: Vec<u32> = rows.map(f32::to_bits).collect();
+        let stream = |id, components, from: usize| {
+            let words = Words::copy_of(&words[from..]).unwrap();
+            Stream::new(StreamShape::floats(id, components), words, 20, 3).unwrap()
+        };
+        let streams = vec![stream("position", 3, 2), stream("texcoord", 2, 0)];
+        let indices = Words::copy_of(&[0, 1, 2]).unwrap();
+        let mesh = Mesh::new(3, indices, streams, &Limits::default()).unwrap();
+        let mesh = compute("aging.mesh frames", Value::Mesh(mesh.into()), &[]).unwrap();
+        for id in ["normal", "tangent"] {
+            assert_eq!(floats(&mesh, id), floats(&plain, id));
+        }
+    }
+
+    #[test]
     fn frames_are_the_same_on_any_number_of_threads() {
         let sample = Sample::ball(60, 80);
         let contents: Vec<_> = [1, 2, 3, 8]
@@ -370,7 +390,7 @@ mod tests {
             .map(|threads| {
                 let mesh = compute_on(threads, "aging.mesh frames", sample.value(), &[]).unwrap();
                 assert_eq!(mesh.streams().len(), 4);
-                ptlib::value::Value::Mesh(mesh).content()
+                Value::Mesh(mesh).content()
             })
             .collect();
         assert!(contents.iter().all(|content| *content == contents[0]));

@@ -9,7 +9,7 @@ use std::rc::Rc;
 use gltf::json::{
     Index, Root,
     accessor::{Accessor, ComponentType, Type},
-    buffer::Buffer,
+    buffer::{Buffer, View},
     validation::Checked,
 };
 
@@ -114,28 +114,10 @@ impl<'a> Buffers<'a> {
         if found != r#type {
             return Err(wrong(&format!("has the type {found:?}, allowed is {:?}", r#type)));
         }
-        let count = accessor.count.0;
-        let size = (size_of_component(component.0) * components) as u64;
-        let stride = view.byte_stride.map_or(size, |stride| stride.0 as u64);
-        if count == 0 {
-            return Err(wrong("has 0 elements, allowed from 1 on"));
-        }
-        if stride < size {
-            return Err(wrong(&format!("has stride {stride}, allowed from {size} on")));
-        }
-        let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
-        let end = (count - 1)
-            .checked_mul(stride)
-            .and_then(|bytes| bytes.checked_add(size)?.checked_add(offset));
-        let length = view.byte_length.0;
-        if end.is_none_or(|end| end > length) {
-            let message = format!(
-                "has {count} elements {stride} bytes apart from byte {offset} on, but its view has \
-                 {length} bytes"
-            );
-            return Err(wrong(&message));
-        }
+        let size = size_of_component(component.0) * components;
+        let stride = span(accessor, view, size as u64).map_err(|what| wrong(&what))?;
         let bytes = self.buffer(view.buffer)?;
+        let length = view.byte_length.0;
         let view_start = view.byte_offset.map_or(0, |offset| offset.0);
         let view_end = view_start.checked_add(length);
         if view_end.is_none_or(|end| end > bytes.len() as u64) {
@@ -150,9 +132,9 @@ impl<'a> Buffers<'a> {
         let place = |number: u64| usize::try_from(number).map_err(|_| wrong("is too large"));
         Ok(Elements {
             bytes,
-            start: place(view_start + offset)?,
+            start: place(view_start + accessor.byte_offset.map_or(0, |offset| offset.0))?,
             stride: place(stride)?,
-            count: place(count)?,
+            count: place(accessor.count.0)?,
             component: component.0,
             normalized: accessor.normalized,
         })
@@ -196,6 +178,30 @@ impl Elements {
     fn iter(&self) -> impl Iterator<Item = &[u8]> {
         (0..self.count).map(|i| self.bytes.get(self.start + i * self.stride..).unwrap_or_default())
     }
+}
+
+/// The bytes from one element to the next, if all of them lie within the view.
+fn span(accessor: &Accessor, view: &View, size: u64) -> Result<u64, String> {
+    let count = accessor.count.0;
+    let stride = view.byte_stride.map_or(size, |stride| stride.0 as u64);
+    if count == 0 {
+        return Err("has 0 elements, allowed from 1 on".to_owned());
+    }
+    if stride < size {
+        return Err(format!("has stride {stride}, allowed from {size} on"));
+    }
+    let offset = accessor.byte_offset.map_or(0, |offset| offset.0);
+    let end = (count - 1)
+        .checked_mul(stride)
+        .and_then(|bytes| bytes.checked_add(size)?.checked_add(offset));
+    let length = view.byte_length.0;
+    if end.is_some_and(|end| end <= length) {
+        return Ok(stride);
+    }
+    Err(format!(
+        "has {count} elements {stride} bytes apart from byte {offset} on, but its view has \
+         {length} bytes"
+    ))
 }
 
 fn wrong(index: Index<Accessor>, what: &str) -> FileError {

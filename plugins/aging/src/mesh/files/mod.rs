@@ -220,9 +220,11 @@ fn index(number: usize) -> u32 {
 
 /// A message of another library, in one line of bearable length.
 fn one_line(message: &str) -> String {
-    let words: Vec<_> = message.split_whitespace().collect();
-    let mut line: String = words.join(" ").chars().take(300).collect();
-    if line.len() < words.iter().map(|word| word.len()).sum() {
+    // It may quote a line of a file that has no others.
+    let start: String = message.chars().take(1000).collect();
+    let words = start.split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut line: String = words.chars().take(300).collect();
+    if line.len() < words.len() || start.len() < message.len() {
         line.push('…');
     }
     line

@@ -21,19 +21,7 @@ const LARGEST_INDEX: i64 = 1 << 31;
 /// # Errors
 /// What is wrong, and in which line.
 pub fn read(bytes: &[u8], outside: &dyn Outside, limits: &Limits) -> Result<FileMesh, FileError> {
-    let mut lines = Lines {
-        rest: bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes),
-        text: String::new(),
-        taken: 0,
-        line: 0,
-        next_line: 1,
-        kinds: [Kind::default(); 3],
-        form: None,
-        triangles: 0,
-        fault: None,
-        outside,
-        limits,
-    };
+    let mut lines = Lines::new(bytes, outside, limits);
     let options = tobj::LoadOptions {
         triangulate: true,
         single_index: true,
@@ -126,7 +114,23 @@ struct Lines<'a> {
     limits: &'a Limits,
 }
 
-impl Lines<'_> {
+impl<'a> Lines<'a> {
+    fn new(bytes: &'a [u8], outside: &'a dyn Outside, limits: &'a Limits) -> Self {
+        Self {
+            rest: bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes),
+            text: String::new(),
+            taken: 0,
+            line: 0,
+            next_line: 1,
+            kinds: [Kind::default(); 3],
+            form: None,
+            triangles: 0,
+            fault: None,
+            outside,
+            limits,
+        }
+    }
+
     /// Goes to the next line of use; false at the end.
     fn advance(&mut self) -> Result<bool, FileError> {
         while !self.rest.is_empty() {

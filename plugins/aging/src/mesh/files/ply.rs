@@ -3,7 +3,7 @@
 //! Of vertices the properties `x y z`, `nx ny nz` and one pair of `s t`, `u v` and
 //! `texture_u texture_v` are read, of faces the list `vertex_indices` or `vertex_index`; others are
 //! passed over. Elements are read one by one into structs of our own, so that an error knows its
-//! line or byte and a header that lies about their number is found out before anything is allocated.
+//! line or byte, and a header that lies about their number is found out before memory is taken.
 
 use ply_rs_bw::{
     parser::{Parser, Reader},
@@ -18,6 +18,14 @@ use super::{FileError, FileMesh, Limits, Outside, is_fine, limit, one_line};
 /// Elements between two questions whether to stop.
 const ELEMENTS: usize = 4096;
 
+/// Lines of a header, and bytes of one: a short declaration takes a hundred times its bytes in
+/// memory.
+const HEADER_LINES: usize = 10_000;
+const HEADER_LINE: usize = 4096;
+
+/// Bytes of a line of text.
+const LINE: usize = 1 << 20;
+
 /// The properties of vertices that are read.
 const NAMES: [&str; 12] =
     ["x", "y", "z", "nx", "ny", "nz", "s", "t", "u", "v", "texture_u", "texture_v"];
@@ -27,6 +35,7 @@ const NAMES: [&str; 12] =
 /// # Errors
 /// What is wrong, and in which line or at which byte.
 pub fn read(bytes: &[u8], outside: &dyn Outside, limits: &Limits) -> Result<FileMesh, FileError> {
+    check_header_size(bytes)?;
     let mut reader = Reader::new(bytes);
     let header = Parser::<Other>::new()
         .read_header(&mut reader)
@@ -48,6 +57,23 @@ pub fn read(bytes: &[u8], outside: &dyn Outside, limits: &Limits) -> Result<File
     }
     mesh.check()?;
     Ok(mesh)
+}
+
+/// That the header can be read.
+fn check_header_size(bytes: &[u8]) -> Result<(), FileError> {
+    let is_end = |line: &&[u8]| line.trim_ascii() == b"end_header";
+    let lines = bytes.split(|byte| *byte == b'\n').take_while(|line| !is_end(line));
+    for (number, line) in (1..).zip(lines) {
+        if number > HEADER_LINES {
+            let message = format!("in the header: more than {HEADER_LINES} lines");
+            return Err(FileError::Limit(message));
+        }
+        if line.len() > HEADER_LINE {
+            let allowed = format!("{} bytes, allowed {HEADER_LINE}", line.len());
+            return Err(FileError::Limit(format!("in the header: line {number}: {allowed}")));
+        }
+    }
+    Ok(())
 }
 
 /// That the header says everything once: the library takes the last of two that have one name.
@@ -204,6 +230,10 @@ impl<'a> Body<'a> {
                 line: is_text.then_some(self.line),
                 byte: self.total - self.rest.len(),
             };
+            if line.len() > LINE {
+                let message = format!("the line has {} bytes, allowed {LINE}", line.len());
+                return Err(place.wrong(&message));
+            }
             let read = match self.encoding {
                 Encoding::Ascii => match str::from_utf8(line) {
                     Ok(line) => parser.read_ascii_element(line, element),
@@ -476,6 +506,15 @@ mod tests {
                 assert_fault(&bytes, &format!("byte {byte}: vertex 0: {name} is {number}"));
             }
         }
+    }
+
+    #[test]
+    fn lines_have_limits() {
+        assert_fault(&b"ply\n".repeat(HEADER_LINES + 1), "in the header: more than 10000 lines");
+        let long = ["ply\ncomment ", &"a".repeat(HEADER_LINE)].concat();
+        assert_fault(long.as_bytes(), "in the header: line 2: 4104 bytes, allowed 4096");
+        let numbers = header("ascii", "1", &XYZ, "0") + &"0 ".repeat(LINE / 2 + 1);
+        assert_fault(numbers.as_bytes(), "line 11: vertex 0: the line has 1048577 bytes");
     }
 
     #[test]

@@ -256,6 +256,8 @@ fn containers_that_lie_are_found_out() {
         assert!(read(&good[..end], &Alone, &Limits::default()).is_err(), "{end}");
     }
     assert_fault(b"{", "line 1");
+    let draco = r#""asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]"#;
+    assert_fault(&changed(r#""asset":{"version":"2.0"}"#, draco), "extensionsRequired[0]");
     assert_fault(b"{\"asset\":{\"version\":\"2.0\"}}", "no scene");
 }
 
