@@ -1,6 +1,8 @@
 //! glTF 2.0 (Khronos), as JSON or as GLB, by `gltf`.
 //!
-//! The library reads the description; what lies in the buffers is read by [`super::accessor`]. All
+//! The library reads the description. Its own validation is not used: it panics at some wrong
+//! indices, and refuses attributes of one's own. So whatever is used is looked up and checked here;
+//! what lies in the buffers is read by [`super::accessor`]. All
 //! primitives of triangles in the default scene become one mesh, each where its node puts it;
 //! points, lines and strips are passed over, and so are materials and pictures. The second texture
 //! coordinate points down in these files, so it becomes 1 minus itself. A primitive without
@@ -31,9 +33,11 @@ const HEADER: usize = 12;
 pub fn read(bytes: &[u8], outside: &dyn Outside, limits: &Limits) -> Result<FileMesh, FileError> {
     check_container(bytes, limits)?;
     let file = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    let Gltf { document, blob } = Gltf::from_slice(file).map_err(|error| fault(&error))?;
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(file)
+        .map_err(|error| FileError::Parse(one_line(&error.to_string())))?;
     outside.check()?;
     let root = document.into_json();
+    check_needs(&root)?;
     let placed = primitives(&root)?;
     let mut scene = Scene { buffers: Buffers::new(&root, blob, outside, limits), placed: &placed };
     scene.check_counts(limits)?;
@@ -74,12 +78,22 @@ fn check_container(bytes: &[u8], limits: &Limits) -> Result<(), FileError> {
     limit("objects in JSON", objects as u64, limits.entries / 4)
 }
 
-fn fault(error: &gltf::Error) -> FileError {
-    let gltf::Error::Validation(faults) = error else {
-        return FileError::Parse(one_line(&error.to_string()));
+/// Extensions that change what a surface looks like, not where it is.
+const HARMLESS: [&str; 4] = ["KHR_materials_", "KHR_lights_", "KHR_texture_", "KHR_xmp"];
+
+/// That the file is of a version that is known, and needs nothing that is not, such as compression.
+fn check_needs(root: &Root) -> Result<(), FileError> {
+    let version = &root.asset.version;
+    if !version.starts_with("2.") {
+        let message = one_line(&format!("asset.version is \"{version}\", allowed is 2"));
+        return Err(FileError::Parse(message));
+    }
+    let is_harmless = |name: &&String| HARMLESS.iter().any(|start| name.starts_with(start));
+    let Some(other) = root.extensions_required.iter().find(|name| !is_harmless(name)) else {
+        return Ok(());
     };
-    let first = faults.first().map_or_else(String::new, |(path, error)| format!("{path}: {error}"));
-    FileError::Parse(one_line(&format!("{first} ({} faults)", faults.len())))
+    let message = format!("the file requires the extension {other}, which is not known here");
+    Err(FileError::Parse(one_line(&message)))
 }
 
 /// A primitive at its place.
@@ -101,7 +115,8 @@ fn primitives(root: &Root) -> Result<Vec<Placed<'_>>, FileError> {
         scene.nodes.iter().rev().map(|node| (*node, Transform::IDENTITY)).collect();
     while let Some((index, outer)) = nodes.pop() {
         let number = index.value();
-        let Some(node) = root.get(index) else { continue };
+        let missing = |what: &str, i: usize| FileError::Parse(format!("there is no {what} {i}"));
+        let node = root.get(index).ok_or_else(|| missing("node", number))?;
         // Each node has one parent at most, so that there are no rings and no forests of copies.
         if std::mem::replace(&mut is_seen[number], true) {
             let message = format!("node {number} is in the scene twice, allowed once");
@@ -110,10 +125,11 @@ fn primitives(root: &Root) -> Result<Vec<Placed<'_>>, FileError> {
         let transform = outer.after(&Transform::of(node));
         let children = node.children.iter().flatten().rev();
         nodes.extend(children.map(|child| (*child, transform)));
-        let Some(mesh) = node.mesh else { continue };
-        for (i, primitive) in root.get(mesh).iter().flat_map(|m| &m.primitives).enumerate() {
+        let Some(index) = node.mesh else { continue };
+        let mesh = root.get(index).ok_or_else(|| missing("mesh", index.value()))?;
+        for (i, primitive) in mesh.primitives.iter().enumerate() {
             if matches!(primitive.mode, Checked::Valid(Mode::Triangles)) {
-                let name = format!("mesh {}, primitive {i}", mesh.value());
+                let name = format!("mesh {}, primitive {i}", index.value());
                 placed.push(Placed { name, primitive, transform });
             }
         }

@@ -198,11 +198,14 @@ fn views_and_buffers_that_lie_are_found_out() {
         r#"{"buffer":0,"byteLength":36,"byteStride":4}"#,
         "accessor 0 has stride 4, allowed from 12",
     );
-    fault(r#"{"buffer":0,"byteLength":36,"byteStride":3}"#, "byteStride");
+    fault(
+        r#"{"buffer":0,"byteLength":36,"byteStride":3}"#,
+        "accessor 0 has stride 3, allowed from 12",
+    );
     fault(r#"{"buffer":0,"byteLength":36,"byteStride":16}"#, "16 bytes apart");
     fault(r#"{"buffer":0,"byteOffset":67,"byteLength":36}"#, "but buffer 0 has 102");
     fault(r#"{"buffer":0,"byteOffset":18446744073709551615,"byteLength":36}"#, "buffer 0 has 102");
-    fault(r#"{"buffer":7,"byteLength":36}"#, "bufferViews[0].buffer");
+    fault(r#"{"buffer":7,"byteLength":36}"#, "buffer 7 does not exist");
     let buffer = r#"{"byteLength":102}"#;
     let fault = |to: &str, expected: &str| assert_fault(&changed(buffer, to), expected);
     fault(r#"{"byteLength":105}"#, "buffer 0 has 104 bytes, but claims 105");
@@ -257,8 +260,35 @@ fn containers_that_lie_are_found_out() {
     }
     assert_fault(b"{", "line 1");
     let draco = r#""asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]"#;
-    assert_fault(&changed(r#""asset":{"version":"2.0"}"#, draco), "extensionsRequired[0]");
+    assert_fault(
+        &changed(r#""asset":{"version":"2.0"}"#, draco),
+        "requires the extension KHR_draco_mesh_compression",
+    );
+    assert_fault(&changed(r#""2.0""#, r#""1.0""#), "asset.version is");
     assert_fault(b"{\"asset\":{\"version\":\"2.0\"}}", "no scene");
+}
+
+#[test]
+fn indices_that_lead_nowhere_are_found_out() {
+    let fault = |from, to, expected| assert_fault(&changed(from, to), expected);
+    fault(r#""POSITION":0"#, r#""POSITION":9"#, "accessor 9 does not exist");
+    fault(r#""NORMAL":1"#, r#""NORMAL":4294967295"#, "accessor 4294967295 does not exist");
+    fault(r#""indices":3"#, r#""indices":4"#, "accessor 4 does not exist");
+    fault(r#""nodes":[0]"#, r#""nodes":[1]"#, "there is no node 1");
+    fault(r#"{"mesh":0}"#, r#"{"mesh":1}"#, "there is no mesh 1");
+    fault(r#"{"mesh":0}"#, r#"{"children":[7]}"#, "there is no node 7");
+    fault(r#""scene":0"#, r#""scene":1"#, "there is no scene");
+    fault(r#"{"bufferView":2,"#, r#"{"bufferView":4,"#, "accessor 2 has no view");
+    fault(r#"{"bufferView":2,"#, "{", "accessor 2 has no view");
+    fault(r#""type":"VEC2""#, r#""type":"VEC5""#, "accessor 2 has an unknown type");
+}
+
+#[test]
+fn attributes_of_ones_own_are_passed_over() {
+    let own = PRIMITIVE.replace(r#""NORMAL":1"#, r#""NORMAL":1,"_AGE":77,"STRANGE":78"#);
+    assert_eq!(mesh(&changed(PRIMITIVE, &own)), mesh(&changed("102", "102")));
+    let skin = r#""2.0"},"extensionsRequired":["KHR_materials_unlit"]"#;
+    assert_eq!(mesh(&changed(r#""2.0"}"#, skin)).triangles.len(), 1);
 }
 
 #[test]
