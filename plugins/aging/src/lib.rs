@@ -13,6 +13,7 @@ mod wrinkles;
 
 use ptlib_plugin::export_plugin;
 
+pub use view::head_view::HeadView;
 pub use wrinkles::age_height::AgeHeight;
 
 export_plugin! {
@@ -22,6 +23,7 @@ export_plugin! {
     license: c"MIT OR Apache-2.0",
     blocks: [
         AgeHeight,
+        HeadView,
     ],
 }
 
