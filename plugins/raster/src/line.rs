@@ -14,7 +14,7 @@ use std::ops::Range;
 use crate::{
     camera::Camera,
     grid::{Grid, Rect, SIDE},
-    number::{dot, floor, index, signed, single, word},
+    number::{dot, signed, single, truncate, word},
     tile::Tile,
 };
 
@@ -127,6 +127,7 @@ impl Line {
     }
 
     /// The line of these numbers.
+    #[inline(always)]
     #[must_use]
     pub fn unpack(numbers: &Packed) -> Self {
         let [ax, ay, bx, by, near, far, depth, red, green, blue, fx, fy, tx, ty] = *numbers;
@@ -142,11 +143,10 @@ impl Line {
 
 /// The tiles that a line of some width meets, a row of tiles after the other.
 pub fn tiles(line: &Packed, width: f32, grid: &Grid, mut give: impl FnMut(usize)) {
-    let line = Line::unpack(line);
-    if line.inverse[0] <= 0.0 {
+    if line[4] <= 0.0 {
         return;
     }
-    let reach = reach(width);
+    let (line, reach) = (Line::unpack(line), reach(width));
     let rows = span([line.ends[0][1], line.ends[1][1]], reach, grid.picture().y1);
     let tiles = grid.tiles(Rect { x0: 0, y0: rows.start, x1: 1, y1: rows.end });
     for row in tiles.y0..tiles.y1 {
@@ -171,14 +171,17 @@ fn reach(width: f32) -> f32 {
 }
 
 /// The pixels whose middles are within `reach` of a range, from 0 to before `end`.
+#[inline(always)]
 fn span(range: [f32; 2], reach: f32, end: usize) -> Range<usize> {
-    let (low, high) = (range[0].min(range[1]) - reach, range[0].max(range[1]) + reach);
-    let first = index(floor(f64::from(low - 0.5).ceil()));
-    first..index(floor(f64::from(high - 0.5)) + 1).min(end).max(first)
+    let low = (range[0].min(range[1]) - reach - 0.5).max(0.0);
+    let high = (range[0].max(range[1]) + reach + 0.5).max(0.0);
+    let whole = truncate(low);
+    let first = whole + usize::from((whole as f32) < low);
+    first..truncate(high).min(end).max(first)
 }
 
 /// The columns that a line may cover between two heights.
-#[inline]
+#[inline(always)]
 fn columns(line: &Line, [top, bottom]: [f32; 2], reach: f32, end: usize) -> Range<usize> {
     let [a, b] = line.ends;
     let along = [b[0] - a[0], b[1] - a[1]];
@@ -281,6 +284,7 @@ impl Pen {
 
 fn stroke(canvas: &mut Canvas, tile: &Tile, line: &Line, width: f32) {
     let (rect, pen) = (tile.rect(), Pen::new(line, width));
+    let nearest_end = pen.inverse[0].max(pen.inverse[0] + pen.inverse[1]) * (1.0 + BIAS);
     let rows = span([line.ends[0][1], line.ends[1][1]], pen.reach, rect.y1);
     let [red, green, blue] = line.color;
     for y in rows.start.max(rect.y0)..rows.end {
@@ -294,6 +298,10 @@ fn stroke(canvas: &mut Canvas, tile: &Tile, line: &Line, width: f32) {
         let row = (y - rect.y0) * SIDE + first - rect.x0;
         let pixels = &mut canvas.pixels[row..row + depths.len()];
         for ((pixel, nearest), x) in pixels.iter_mut().zip(depths).zip(first..) {
+            // What is hidden as a whole is soon done with.
+            if nearest_end < *nearest {
+                continue;
+            }
             let (depth, alpha) = pen.at(signed(x) as f32 + 0.5, middle);
             let alpha = if depth >= *nearest { alpha } else { 0.0 };
             let rest = 1.0 - alpha;

@@ -20,6 +20,14 @@ pub(crate) fn index(x: i32) -> usize {
     usize::try_from(x).unwrap_or_default()
 }
 
+/// The whole part of a number that is not negative.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "pixels of a picture")]
+#[expect(clippy::cast_sign_loss, reason = "the caller keeps it in range")]
+pub(crate) fn truncate(x: f32) -> usize {
+    x as usize
+}
+
 /// A count of pixels or tiles, which is below 2³¹.
 #[inline]
 pub(crate) fn signed(x: usize) -> i32 {

@@ -12,7 +12,7 @@ use ptlib_raster::{
     line::{self, Line, Packed},
 };
 
-use super::{params::Params, stage::Stage, strand_color::Hair, vector::unit};
+use super::{params::Params, power::Power, stage::Stage, strand_color::Hair, vector::unit};
 
 /// The colour of hair that has none: that of `grey hair` when young.
 const BROWN: [f32; 3] = [0.30, 0.20, 0.10];
@@ -75,7 +75,7 @@ impl<'a> Hairs<'a> {
             hair: Hair {
                 diffuse: params.k_diffuse,
                 specular: params.k_specular,
-                shine: params.hair_shine,
+                shine: Power::new(params.hair_shine),
                 ambient,
             },
             width: hair_width,
@@ -137,7 +137,8 @@ impl Comb<'_, '_> {
             let strands = first..(first + CHUNK).min(self.strands.count());
             let points: usize = strands.clone().map(|strand| self.points(strand).len()).sum();
             let (lines, after) = rest.split_at_mut(points - strands.len());
-            (tasks, rest) = (push(tasks, (strands, lines)), after);
+            tasks.push((strands, lines));
+            rest = after;
         }
         work.for_each(tasks, |(strands, mut lines)| {
             work.check()?;
@@ -199,9 +200,4 @@ impl Comb<'_, '_> {
             (None, None) => BROWN,
         }
     }
-}
-
-fn push<T>(mut list: Vec<T>, item: T) -> Vec<T> {
-    list.push(item);
-    list
 }

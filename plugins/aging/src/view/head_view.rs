@@ -18,12 +18,13 @@ use ptlib_raster::{
 
 use super::{
     hairs::Hairs,
+    parallax::Search,
     params::Params,
     picture::{self, TargetRow},
     skin::{Skin, Textures},
     stage::Stage,
     surface::{Needs, Surface},
-    texture::Texture,
+    texture::{Heights, Texture},
 };
 
 const MESH: usize = 0;
@@ -32,6 +33,9 @@ const NORMALS: usize = 2;
 const FINE: usize = 3;
 const MASK: usize = 4;
 const HAIR: usize = 5;
+
+/// The plane of normals that holds heights.
+const HEIGHT: usize = 3;
 
 /// Vertices of a task.
 const CHUNK: u32 = 4096;
@@ -155,7 +159,10 @@ impl HeadView {
         let surface = Surface::new(mesh, needs, (stage.centre, stage.unit))?;
         let textures = images.map(|image| image.as_ref().map(Texture::new));
         let [color, normals, fine, mask] = textures;
-        let textures = Textures { color, normals, fine, mask };
+        let is_deep = self.0.search != Search::Off && self.0.depth * self.0.age > 0.0;
+        let heights = images[1].filter(|_| is_deep);
+        let heights = heights.map(|image| Heights::new(&image, HEIGHT, call.work())).transpose()?;
+        let textures = Textures { color, normals, heights, fine, mask };
         Ok((surface, Skin::new(&self.0, textures, stage.light, stage.camera.eye)))
     }
 }

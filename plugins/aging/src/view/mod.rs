@@ -5,6 +5,7 @@ pub mod head_view;
 mod parallax;
 mod params;
 mod picture;
+mod power;
 mod skin;
 mod stage;
 mod strand_color;

@@ -10,16 +10,14 @@ use ptlib_plugin::math;
 use super::{
     parallax::Steps,
     params::{Parallax, Params, YAxis, ZRange},
+    power::Power,
     surface::Batch,
-    texture::{Lanes, Taps, Texture, each},
+    texture::{Heights, Lanes, Taps, Texture, each},
     vector::{Vectors, crosses, dots, mix, units},
 };
 
 /// What plays the part of the colour image where none is connected: light skin.
 const SKIN: [f32; 3] = [0.86, 0.68, 0.57];
-
-/// The plane of normals that holds heights.
-const HEIGHT: usize = 3;
 
 /// The least slant of the line of sight by which the true shift is divided.
 const LEAST_SLANT: f32 = 0.1;
@@ -29,8 +27,10 @@ const LEAST_SLANT: f32 = 0.1;
 pub struct Textures<'a> {
     /// Its colour.
     pub color: Option<Texture<'a>>,
-    /// Normals, with heights as alpha.
+    /// Normals.
     pub normals: Option<Texture<'a>>,
+    /// Heights of wrinkles, if these are searched for.
+    pub heights: Option<Heights<'a>>,
     /// Normals of fine detail.
     pub fine: Option<Texture<'a>>,
     /// Where wrinkles are deep.
@@ -48,7 +48,7 @@ pub struct Skin<'a> {
     normals: Unpack,
     ambient: f32,
     specular: f32,
-    shine: f64,
+    shine: Power,
     /// The direction to the light.
     light: [f32; 3],
     eye: [f32; 3],
@@ -75,7 +75,7 @@ impl<'a> Skin<'a> {
         let up = if params.y_axis == YAxis::Up { 1.0 } else { -1.0 };
         let depth = math::single(params.depth * params.age);
         Self {
-            steps: steps.filter(|_| textures.normals.is_some() && depth > 0.0),
+            steps,
             textures,
             depth,
             level: math::single(params.level),
@@ -83,7 +83,7 @@ impl<'a> Skin<'a> {
             normals: Unpack { up, scale, shift },
             ambient: math::single(params.ambient),
             specular: math::single(params.specular),
-            shine: params.shine,
+            shine: Power::new(params.shine),
             light: light.map(math::single),
             eye: eye.map(math::single),
         }
@@ -122,7 +122,7 @@ impl<'a> Skin<'a> {
     /// How far texture coordinates move to what is seen, with the directions to the eye in texture
     /// space. Exactly 0 where depth or mask is 0.
     fn shift(&self, steps: Steps, batch: &Batch, view: &Vectors) -> [Lanes; 2] {
-        let Some(heights) = &self.textures.normals else { return [[0.0; 8]; 2] };
+        let Some(heights) = &self.textures.heights else { return [[0.0; 8]; 2] };
         let [u, v] = &batch.uv;
         let mut depth = [self.depth; 8];
         if let Some(mask) = &self.textures.mask {
@@ -139,8 +139,7 @@ impl<'a> Skin<'a> {
         let shift = |z: &Lanes| along.map(|along| each(|i| along[i] * (z[i] - self.level)));
         let z = steps.search(|z: &Lanes| {
             let [du, dv] = shift(z);
-            let taps = heights.taps(&each(|i| u[i] + du[i]), &each(|i| v[i] + dv[i]));
-            heights.read(HEIGHT, &taps)
+            heights.at(&each(|i| u[i] + du[i]), &each(|i| v[i] + dv[i]))
         });
         shift(&z)
     }
@@ -171,21 +170,11 @@ impl<'a> Skin<'a> {
         let lit = each(|i| self.ambient + (1.0 - self.ambient) * lit[i].max(0.0));
         let mut mirrored = [0.0; 8];
         if self.specular > 0.0 {
-            let towards = dots(normal, &half);
-            mirrored = each(|i| self.specular * power(towards[i], self.shine));
+            let towards = self.shine.each(&dots(normal, &half));
+            mirrored = towards.map(|part| self.specular * part);
         }
         color.map(|color| each(|i| (color[i] * lit[i] + mirrored[i]).clamp(0.0, 1.0)))
     }
-}
-
-/// A power of what is above 0; 0 where it is less than half of the last of 16 bits.
-fn power(base: f32, exponent: f64) -> f32 {
-    let base = f64::from(base);
-    // base^e < exp(e · (base - 1)).
-    if base <= 0.0 || exponent * (base - 1.0) < -12.0 {
-        return 0.0;
-    }
-    math::single(math::pow(base, exponent))
 }
 
 impl Unpack {

@@ -3,7 +3,10 @@
 
 use ptlib_plugin::math;
 
-use super::vector::{dot, unit};
+use super::{
+    power::Power,
+    vector::{dot, unit},
+};
 
 /// How hair takes light.
 #[derive(Debug, Clone, Copy)]
@@ -13,7 +16,7 @@ pub struct Hair {
     /// Part that is mirrored.
     pub specular: f64,
     /// How narrow the highlight is.
-    pub shine: f64,
+    pub shine: Power,
     /// What is added, untinted.
     pub ambient: [f64; 3],
 }
@@ -28,7 +31,7 @@ impl Hair {
         // is gone before rounding tells where it is.
         let strength = dot(both, both).min(1.0);
         let mirrored = match unit(both) {
-            Some(half) => strength * math::pow(across(dot(half, along)), self.shine),
+            Some(half) => strength * self.shine.of(across(dot(half, along))),
             None => 0.0,
         };
         [across(dot(light, along)), mirrored]
@@ -47,7 +50,10 @@ mod tests {
     use super::*;
     use crate::testing;
 
-    const HAIR: Hair = Hair { diffuse: 0.7, specular: 0.3, shine: 20.0, ambient: [0.05; 3] };
+    fn hair() -> Hair {
+        Hair { diffuse: 0.7, specular: 0.3, shine: Power::new(20.0), ambient: [0.05; 3] }
+    }
+
     const COLOR: [f32; 3] = [0.5, 0.4, 0.3];
 
     fn near(found: &[f64], expected: &[f64]) {
@@ -57,9 +63,9 @@ mod tests {
 
     fn check(vectors: [[f64; 3]; 3], parts: [f64; 2], color: [f64; 3]) {
         let [along, light, eye] = vectors.map(|vector| unit(vector).unwrap());
-        let found = HAIR.parts(along, light, eye);
+        let found = hair().parts(along, light, eye);
         near(&found, &parts);
-        near(&HAIR.color(found, COLOR).map(f64::from), &color);
+        near(&hair().color(found, COLOR).map(f64::from), &color);
     }
 
     #[test]
@@ -71,7 +77,7 @@ mod tests {
         let diffuse = 0.5_f64.sqrt();
         check([x, light, eye], [diffuse, 1.0], [0.447_487, 0.367_990, 0.288_492]);
         check([[0.6, 0.0, 0.8], z, z], [0.6, 3.656_16e-5], [0.260_005, 0.218_004, 0.176_003]);
-        let parts = HAIR.parts(x, x, z);
+        let parts = hair().parts(x, x, z);
         near(&parts, &[0.0, 0.000_976_563]);
     }
 
@@ -79,8 +85,8 @@ mod tests {
     fn looking_into_the_light_is_defined() {
         let _host = testing::engine();
         let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
-        assert_eq!(HAIR.parts(x, z, z.map(|c| -c)), [1.0, 0.0]);
+        assert_eq!(hair().parts(x, z, z.map(|c| -c)), [1.0, 0.0]);
         let almost = unit([1e-9, 0.0, -1.0]).unwrap();
-        assert!(HAIR.parts(x, z, almost)[1] < 1e-6);
+        assert!(hair().parts(x, z, almost)[1] < 1e-6);
     }
 }

@@ -1,6 +1,6 @@
 //! Images read between their pixels, at some places side by side.
 
-use ptlib_plugin::Image;
+use ptlib_plugin::{Image, Scratch, Work, prelude::BlockError};
 
 /// How many pixels are shaded side by side.
 pub const LANES: usize = 8;
@@ -57,18 +57,59 @@ impl<'a> Texture<'a> {
         let plane = &self.planes[channel.min(self.planes.len() - 1)];
         let corner =
             |row: usize, column: usize| each(|i| plane[taps.rows[row][i]][taps.columns[column][i]]);
-        let [a, b, c, d] = [corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1)];
-        each(|i| {
-            let (upper, lower) =
-                (a[i] + (b[i] - a[i]) * taps.across[i], c[i] + (d[i] - c[i]) * taps.across[i]);
-            upper + (lower - upper) * taps.down[i]
-        })
+        let corners = [corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1)];
+        between(&corners, &taps.across, &taps.down)
     }
 
     /// Red, green and blue.
     #[inline(always)]
     pub fn color(&self, taps: &Taps) -> [Lanes; 3] {
         [0, 1, 2].map(|channel| self.read(channel, taps))
+    }
+}
+
+/// One plane, stored for many reads: with one more column and row at each edge, so that the four
+/// pixels around a place lie next to each other.
+#[derive(Debug)]
+pub struct Heights<'a> {
+    values: Scratch<'a, f32>,
+    width: usize,
+    height: usize,
+}
+
+impl<'a> Heights<'a> {
+    /// A plane of an image.
+    ///
+    /// # Errors
+    /// If memory does not suffice, or the host asks to stop.
+    pub fn new(image: &Image<'_>, channel: usize, work: Work<'a>) -> Result<Self, BlockError> {
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        let mut values = work.scratch::<f32>((width + 2) * (height + 2))?;
+        let rows = values.chunks_exact_mut(width + 2).zip(-1_i64..);
+        work.for_each(rows, |(row, y)| {
+            let line = y.rem_euclid(i64::from(image.height()));
+            let line = image.row(channel, u32::try_from(line).unwrap_or_default());
+            (row[0], row[width + 1]) = (line[width - 1], line[0]);
+            row[1..=width].copy_from_slice(line);
+            Ok(())
+        })?;
+        Ok(Self { values, width, height })
+    }
+
+    /// The height at texture coordinates, to the bit what a [`Texture`] gives.
+    #[inline(always)]
+    pub fn at(&self, u: &Lanes, v: &Lanes) -> Lanes {
+        let (columns, across) = place(u, self.width);
+        let (rows, down) = place(&v.map(|v| 1.0 - v), self.height);
+        let stride = self.width + 2;
+        let mut corners = [[0.0; LANES]; 4];
+        for i in 0..LANES {
+            let first = rows[i] * stride + columns[i];
+            let four = &self.values[first..first + stride + 2];
+            (corners[0][i], corners[1][i]) = (four[0], four[1]);
+            (corners[2][i], corners[3][i]) = (four[stride], four[stride + 1]);
+        }
+        between(&corners, &across, &down)
     }
 }
 
@@ -86,9 +127,20 @@ fn part(x: f32) -> f32 {
     (x - whole).max(0.0).min(1.0)
 }
 
-/// The two pixels along an axis between whose middles places lie, and how far from the first.
+/// Between four numbers: from the first to the second, and from these to the others.
 #[inline(always)]
-fn axis(places: &Lanes, length: usize) -> ([[usize; LANES]; 2], Lanes) {
+fn between([a, b, c, d]: &[Lanes; 4], across: &Lanes, down: &Lanes) -> Lanes {
+    each(|i| {
+        let upper = a[i] + (b[i] - a[i]) * across[i];
+        let lower = c[i] + (d[i] - c[i]) * across[i];
+        upper + (lower - upper) * down[i]
+    })
+}
+
+/// The pixel behind whose middle places lie, counted from 1, and how far behind; 0 is the last one
+/// of the image before.
+#[inline(always)]
+fn place(places: &Lanes, length: usize) -> ([usize; LANES], Lanes) {
     #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
     let size = length as f32;
     // From half a pixel before the first.
@@ -98,7 +150,13 @@ fn axis(places: &Lanes, length: usize) -> ([[usize; LANES]; 2], Lanes) {
     let after = at.map(|at| at as u32);
     #[expect(clippy::cast_precision_loss, reason = "at most 65,536")]
     let along = each(|i| at[i] - after[i] as f32);
-    let after = after.map(|after| (after as usize).min(length));
+    (after.map(|after| (after as usize).min(length)), along)
+}
+
+/// The two pixels along an axis between whose middles places lie, and how far from the first.
+#[inline(always)]
+fn axis(places: &Lanes, length: usize) -> ([[usize; LANES]; 2], Lanes) {
+    let (after, along) = place(places, length);
     let first = after.map(|after| if after == 0 { length - 1 } else { after - 1 });
     let second = after.map(|after| if after == length { 0 } else { after });
     ([first, second], along)
