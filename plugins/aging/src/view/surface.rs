@@ -25,7 +25,7 @@ pub struct Needs {
 pub struct Surface<'a> {
     triangles: &'a [[u32; 3]],
     position: Stream<'a, [f32; 3]>,
-    normal: Stream<'a, [f32; 3]>,
+    normal: Option<Stream<'a, [f32; 3]>>,
     tangent: Option<Stream<'a, [f32; 4]>>,
     texcoord: Option<Stream<'a, [f32; 2]>>,
     fine: Option<Stream<'a, [f32; 2]>>,
@@ -97,7 +97,7 @@ impl Default for Batch {
 }
 
 impl<'a> Surface<'a> {
-    /// The streams that are needed.
+    /// The streams that are needed; none if there is no triangle.
     ///
     /// # Errors
     /// If one is missing, with the block that makes it.
@@ -109,19 +109,23 @@ impl<'a> Surface<'a> {
         let missing = |what: &str, block: &str| {
             BlockError::invalid(format!("the mesh has no {what}; {block}"))
         };
+        let is_empty = mesh.triangles().is_empty();
         let frames = "the block \"aging.mesh frames\" makes them";
-        let normal = mesh.normals().ok_or_else(|| missing("normals", frames))?;
+        let normal = mesh.normals();
+        if normal.is_none() && !is_empty {
+            return Err(missing("normals", frames));
+        }
         let tangent = mesh.streams().get(TANGENT).filter(|_| needs.tangent);
-        if needs.tangent && tangent.is_none() {
+        if needs.tangent && tangent.is_none() && !is_empty {
             return Err(missing("tangents, which normals in images need", frames));
         }
         let texcoord = mesh.texcoords();
-        if needs.texcoord && texcoord.is_none() {
+        if needs.texcoord && texcoord.is_none() && !is_empty {
             let from = "they come from the mesh's file, or from whoever sets \"mesh input\"";
             return Err(missing("texture coordinates, which images on the skin need", from));
         }
         let fine = mesh.streams().get(TEXCOORD1).filter(|_| needs.fine);
-        if needs.fine && fine.is_none() && texcoord.is_none() {
+        if needs.fine && fine.is_none() && texcoord.is_none() && !is_empty {
             let from = "the block \"aging.sphere coordinates\" makes them";
             return Err(missing("coordinates for the input \"fine\"", from));
         }
@@ -157,7 +161,9 @@ impl<'a> Surface<'a> {
         let vertices = self.triangles[triangle as usize];
         corners.triangle = triangle;
         corners.place = vertices.map(|vertex| self.place(vertex).map(math::single));
-        corners.normal = vertices.map(|vertex| self.normal.get(vertex as usize));
+        if let Some(normal) = &self.normal {
+            corners.normal = vertices.map(|vertex| normal.get(vertex as usize));
+        }
         if let Some(tangent) = &self.tangent {
             corners.tangent = vertices.map(|vertex| tangent.get(vertex as usize));
         }

@@ -164,6 +164,21 @@ fn normals_lean_to_the_light_in_either_packing() {
 }
 
 #[test]
+fn fine_detail_leans_alone_and_with_wrinkles() {
+    // Leaning to the right by 30°: alone it is 30° from the light, twice it faces it.
+    let lean = || {
+        let normal = [0.75, 0.5, 0.75_f64.sqrt(), 0.0].map(ptlib_plugin::math::single);
+        trial::picture(8, |_, _| normal)
+    };
+    let mut trial = wall(32);
+    trial.give("image input", FINE, lean()).give("image input", COLOR, grey(0.5));
+    trial.float("specular", 0.0);
+    near(middle(&trial), [0.5 * (0.2 + 0.8 * 0.866_025); 3], 1e-3);
+    trial.give("image input", NORMALS, lean());
+    near(middle(&trial), [0.5; 3], 1e-3);
+}
+
+#[test]
 fn a_slanted_look_sees_ridges_before_what_is_behind_them() {
     // A wall seen from the right at 60°; the right half is high. At the rim the high part hides
     // some of the low one: the colour of the high part reaches farther left than it lies.
@@ -271,7 +286,9 @@ fn hostile_meshes_are_drawn_or_not_but_never_harm() {
     assert!(survives(trial::plain_mesh(&far, &[0, 1, 2, 0, 3, 4, 1, 2, 4, 2, 1, 0]), None) > 0.0);
     let tiny = far.map(|corner| corner.map(|x| x / e * 1e-38));
     assert!(survives(trial::plain_mesh(&tiny, &[0, 1, 2]), None) > 0.0);
-    // No triangles, no area, one point.
+    // No triangles (for which nothing has to be there), no area, one point.
+    assert_eq!(survives(trial::bare_mesh(&[], &[]), None), 0.0);
+    assert_eq!(survives(trial::bare_mesh(&[[0.0; 3], [1.0; 3]], &[]), None), 0.0);
     assert_eq!(survives(trial::plain_mesh(&[], &[]), None), 0.0);
     let point = [[3.0; 3]; 3];
     assert_eq!(survives(trial::plain_mesh(&point, &[0, 1, 2, 0, 0, 0, 1, 1, 2]), None), 0.0);
