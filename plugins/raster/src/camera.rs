@@ -39,8 +39,8 @@ impl Camera {
         self.axes.map(|axis| dot(axis, away))
     }
 
-    /// Pixels of a point to the right of the middle and below it, both times the distance ahead, and
-    /// that. (From the middle, because far away a move to the corner would swallow the rest.)
+    /// Pixels of a point to the right of the middle and below it, both times the distance ahead,
+    /// and that. (From the middle, because far away a move to the corner would swallow the rest.)
     #[inline]
     pub(crate) fn homogeneous(&self, point: [f64; 3]) -> [f64; 3] {
         let [right, up, ahead] = self.to_eye(point);

@@ -7,8 +7,8 @@
 //! functions `…_bytes` and counts say how much that is.
 //!
 //! Triangles, in this order:
-//! 1. [`Camera`] and the caller's positions make a [`Solid`]; [`Camera::place`] snaps each vertex to
-//!    1/256 pixel ([`Place`]). What is too near, or far outside of the picture, is clipped when it
+//! 1. [`Camera`] and the caller's positions make a [`Solid`]; [`Camera::place`] snaps each vertex
+//!    to 1/256 pixel ([`Place`]). What is too near, or far outside of the picture, is clipped when it
 //!    is drawn, so that edge functions are exact in 64 bits whatever the coordinates are.
 //! 2. [`Solid::count`] and [`Solid::fill`] sort triangles into tiles.
 //! 3. [`Tile::draw`] finds the nearest triangle of each pixel; [`Tile::fragments`] gives the caller

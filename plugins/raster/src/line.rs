@@ -1,13 +1,13 @@
 //! Lines with a width: hair, wire.
 //!
-//! A line is a capsule: all pixels within half the width of a segment. A pixel is covered by how far
-//! it is inside: ½ + half width − distance, from 0 to 1. A line thinner than a pixel is drawn one
-//! pixel wide, and fades instead: so thin hair neither thickens nor twinkles. Where two segments of
-//! a strand meet, the line that halves their angle tells which of them a pixel belongs to; otherwise
-//! joints would be drawn twice, and show as dots.
+//! A line is a capsule: all pixels within half the width of a segment. A pixel is covered by how
+//! far it is inside: ½ + half width − distance, from 0 to 1. A line thinner than a pixel is drawn
+//! one pixel wide, and fades instead: so thin hair neither thickens nor twinkles. Where two
+//! segments of a strand meet, the line that halves their angle tells which of them a pixel belongs
+//! to; otherwise joints would be drawn twice, and show as dots.
 //!
-//! Lines are blended one over the other from far to near, by the depth of the middle, and of equally
-//! deep ones in their order. What is behind the triangles of a tile is hidden there.
+//! Lines are blended one over the other from far to near, by the depth of the middle, and of
+//! equally deep ones in their order. What is behind the triangles of a tile is hidden there.
 
 use std::ops::Range;
 
