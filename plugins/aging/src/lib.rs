@@ -25,6 +25,7 @@ pub use region::{hair_mask::HairMask, hair_transition::HairTransition};
 pub use skin::{
     blend_normals::BlendNormals, fine_wrinkles::FineWrinkles, height_to_normal::HeightToNormal,
 };
+pub use view::head_view::HeadView;
 pub use wrinkles::{age_height::AgeHeight, grammar, wrinkle_map::WrinkleMap};
 
 export_plugin! {
@@ -41,6 +42,7 @@ export_plugin! {
         HairAtAge,
         HairMask,
         HairTransition,
+        HeadView,
         HeightToNormal,
         LoadMesh,
         MeshFrames,
