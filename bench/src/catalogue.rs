@@ -1,4 +1,5 @@
-//! Rows from the registry: every block at its defaults, alone.
+//! Rows from the registry: every block at its defaults, alone. None is left out: blocks that give
+//! no image have a row as well, though the number of pixels says little about them.
 
 use std::{fs, path::PathBuf};
 
@@ -11,7 +12,7 @@ use ptlib::{
 };
 
 use crate::{
-    Result, card,
+    Result, card, given,
     measure::Times,
     options::is_wanted,
     report::{Row, Subject},
@@ -34,7 +35,7 @@ impl Entry {
     }
 }
 
-/// An entry for each wanted block whose first output is an image, in both precisions. Inputs get
+/// An entry for each wanted block, in both precisions if its first output is an image. Inputs get
 /// the cheapest source that gives what they take.
 pub(crate) fn entries(size: (u32, u32), filters: &[String]) -> Result<Vec<Entry>> {
     let mut entries = Vec::new();
@@ -42,10 +43,11 @@ pub(crate) fn entries(size: (u32, u32), filters: &[String]) -> Result<Vec<Entry>
     for spec in engine.registry().blocks() {
         let id = spec.about.id;
         let is_image = spec.about.outputs.first().is_some_and(|output| output.kind == Kind::Image);
-        if !is_image || id == card::ID || !is_wanted(id, filters) {
+        if id == card::ID || !is_wanted(id, filters) {
             continue;
         }
-        for precision in [Precision::Float, Precision::EightBit] {
+        let precisions = [Precision::Float, Precision::EightBit];
+        for precision in precisions.into_iter().take(if is_image { 2 } else { 1 }) {
             let (graph, block) = alone(&engine, spec)?;
             let supersampling = Some(1);
             let settings = Settings { block, size, threads: 1, precision, supersampling };
@@ -60,6 +62,12 @@ pub(crate) fn entries(size: (u32, u32), filters: &[String]) -> Result<Vec<Entry>
 fn alone(engine: &Engine, spec: &'static BlockSpec) -> Result<(Graph, BlockId)> {
     let mut graph = engine.new_graph();
     let block = graph.add(spec.about.id)?;
+    if spec.about.role == Role::Input
+        && let Kind::Points | Kind::Mesh | Kind::Strands = spec.about.outputs[0].kind
+    {
+        graph.set_input(block, Some(given::shape(spec.about.outputs[0].kind)?))?;
+        return Ok((graph, block));
+    }
     for (number, port) in (0..).zip(spec.about.inputs) {
         if port.is_optional && spec.about.role != Role::Input {
             continue;
@@ -123,4 +131,25 @@ fn samples() -> Result<PathBuf> {
         io::save_image(&card, &path, io::BitDepth::Eight)?;
     }
     Ok(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn every_block_of_the_registry_has_a_row() {
+        let engine = work::engine(1, 0);
+        let blocks = engine.registry().blocks().into_iter().map(|spec| spec.about.id.to_owned());
+        let blocks: BTreeSet<String> = blocks.filter(|id| id != card::ID).collect();
+        let mut rows = BTreeSet::new();
+        for entry in entries((32, 32), &[]).unwrap() {
+            let row = entry.measure(1).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!((row.width, row.threads), (32, 1));
+            rows.insert(row.name);
+        }
+        assert_eq!(rows, blocks);
+    }
 }

@@ -7,14 +7,16 @@ use std::{
 };
 
 use ptlib::Precision;
-use serde::Deserialize;
+use serde::{Deserialize, de::IgnoredAny};
 
 use crate::{
-    Result,
+    Result, given,
     measure::{Times, timed},
     options::{Options, is_wanted},
-    process,
-    report::{Row, Subject, rounded},
+    peers::{self, Peer, Task},
+    plugin, process,
+    report::{PeerRow, Row, Subject, rounded},
+    series::{self, Series},
     work::{self, Settings, Work, hash, precision_name},
 };
 
@@ -22,7 +24,10 @@ use crate::{
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    #[serde(default)]
     bench: Vec<Definition>,
+    #[serde(default)]
+    series: Vec<Series>,
 }
 
 /// One definition.
@@ -32,33 +37,49 @@ pub(crate) struct Definition {
     /// Its name: what filters look at.
     pub(crate) name: String,
     /// Why the row exists.
-    why: String,
+    pub(crate) why: String,
     /// The graph's file, in `bench/graphs`.
-    graph: Option<PathBuf>,
+    pub(crate) graph: Option<PathBuf>,
     /// Or the graph's file in the folder of `--textures`.
-    texture: Option<PathBuf>,
+    pub(crate) texture: Option<PathBuf>,
+    /// Or the graph's file in `examples/graphs`.
+    pub(crate) example: Option<PathBuf>,
     /// The id of the block whose output is computed; the graph's result if there is none. Graphs
     /// with test cards name the block that is measured: see [`Work`].
-    block: Option<String>,
+    pub(crate) block: Option<String>,
     /// Width and height of the result.
-    size: [u32; 2],
-    threads: u32,
-    precision: Bits,
+    pub(crate) size: [u32; 2],
+    pub(crate) threads: u32,
+    pub(crate) precision: Bits,
     /// The graph's, if there is none here.
-    supersampling: Option<u32>,
+    pub(crate) supersampling: Option<u32>,
     /// How it is measured.
     #[serde(default)]
-    by: By,
+    pub(crate) by: By,
+    /// What `--peers` measures beside it: names of [`peers`].
+    #[serde(default)]
+    pub(crate) peers: Vec<String>,
+    /// The plug-in of this repository that has the graph's blocks.
+    pub(crate) plugin: Option<String>,
+    /// Width and height of a grey test card that the graph's `image input` is given.
+    pub(crate) picture: Option<[u32; 2]>,
+    /// What it ought to reach: `cargo xtask bench page` reads that.
+    #[expect(dead_code, reason = "a misspelt field shall be told, so this one is known")]
+    pub(crate) target: Option<IgnoredAny>,
     /// The hash of the right result, by `--bless`.
     #[serde(default)]
-    hash: String,
+    pub(crate) hash: String,
     /// The file that it stands in.
     #[serde(skip)]
-    file: PathBuf,
+    pub(crate) file: PathBuf,
+    /// Its hash is one of a list, at this place.
+    #[serde(skip)]
+    pub(crate) place: Option<usize>,
 }
 
+/// A precision, as files name it.
 #[derive(Debug, Clone, Copy, Deserialize)]
-enum Bits {
+pub(crate) enum Bits {
     #[serde(rename = "float")]
     Float,
     #[serde(rename = "8-bit")]
@@ -68,7 +89,7 @@ enum Bits {
 /// How a definition is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum By {
+pub(crate) enum By {
     /// Again and again in this process.
     #[default]
     Computing,
@@ -90,11 +111,11 @@ pub(crate) fn all(filters: &[String]) -> Result<Vec<Definition>> {
             toml::from_str(&text).map_err(|error| format!("{}: {error}", path.display()))?;
         for mut definition in file.bench {
             definition.file.clone_from(&path);
-            if is_wanted(&definition.name, filters) {
-                definitions.push(definition);
-            }
+            definitions.push(definition);
         }
+        definitions.extend(file.series.iter().flat_map(|series| series.definitions(&path)));
     }
+    definitions.retain(|definition| is_wanted(&definition.name, filters));
     Ok(definitions)
 }
 
@@ -127,7 +148,11 @@ impl Definition {
     /// Writes a hash into the definition's file: behind its name.
     pub(crate) fn write_hash(&self, hash: &str) -> Result {
         let text = fs::read_to_string(&self.file)?;
-        Ok(fs::write(&self.file, with_hash(&text, &self.name, hash)?)?)
+        let text = match self.place {
+            Some(place) => series::with_hash(&text, &self.name, place, hash)?,
+            None => with_hash(&text, &self.name, hash)?,
+        };
+        Ok(fs::write(&self.file, text)?)
     }
 
     /// The row, and the hash of what was computed.
@@ -150,7 +175,42 @@ impl Definition {
         Ok((row, hash))
     }
 
+    /// A row for each of its peers, measured by turns with ours, and the hash of ours.
+    pub(crate) fn measure_peers(&self, options: &Options) -> Result<(Vec<PeerRow>, String)> {
+        let mut work = self.work(options)?;
+        let image = work.compute()?;
+        let hash = hash(&image);
+        let task = Task { size: self.size.into(), picture: work.picture()? };
+        let mut rows = Vec::new();
+        for name in &self.peers {
+            let peer = peers::find(name)?;
+            let mut contender = (peer.make)(&task)?;
+            let in_peer = |error| format!("{}, {name}: {error}", self.name);
+            contender.run().map_err(in_peer)?;
+            peer.check(contender.as_ref(), &image).map_err(in_peer)?;
+            rows.push(self.beside(&mut work, peer, contender.as_mut(), options.runs)?);
+        }
+        Ok((rows, hash))
+    }
+
+    fn beside(
+        &self,
+        work: &mut Work,
+        peer: &Peer,
+        contender: &mut dyn peers::Contender,
+        runs: usize,
+    ) -> Result<PeerRow> {
+        let pairs = Times::by_turns(runs, || work.run(), || timed(|| contender.run()))?;
+        let Settings { size, threads, precision, .. } = work.settings;
+        let (name, precision) = (self.name.clone(), precision_name(precision));
+        let subject = Subject { name, size, threads, precision };
+        Ok(PeerRow::new(subject, peer, &pairs))
+    }
+
     fn path(&self, options: &Options) -> PathBuf {
+        if let Some(example) = &self.example {
+            return home().join("../examples/graphs").join(example);
+        }
         match (&self.graph, &self.texture, &options.textures) {
             (Some(graph), ..) => home().join("graphs").join(graph),
             (None, Some(texture), Some(folder)) => folder.join(texture),
@@ -159,10 +219,14 @@ impl Definition {
     }
 
     fn work(&self, options: &Options) -> Result<Work> {
-        let engine = work::engine(self.threads, 0);
+        let plugin = self.plugin.as_deref().map(plugin::file).transpose()?;
+        let engine = work::engine_with(self.threads, 0, plugin.as_deref())?;
         let path = self.path(options);
         let in_file = |error| format!("{}: {error}", path.display());
-        let graph = engine.open_graph(&path).map_err(in_file)?.graph;
+        let mut graph = engine.open_graph(&path).map_err(in_file)?.graph;
+        if let Some([width, height]) = self.picture {
+            given::give(&mut graph, given::card((width, height))?)?;
+        }
         let block = match &self.block {
             Some(id) => graph.find(id).ok_or_else(|| format!("the graph has no block {id}"))?,
             None => graph.main_result()?,
@@ -173,7 +237,8 @@ impl Definition {
         };
         let (size, threads) = (self.size.into(), self.threads);
         let supersampling = self.supersampling;
-        Work::new(graph, Settings { block, size, threads, precision, supersampling })
+        let settings = Settings { block, size, threads, precision, supersampling };
+        Work::with_plugin(graph, settings, plugin.as_deref())
     }
 }
 
@@ -184,7 +249,7 @@ fn next_to_memcpy(work: &mut Work, subject: Subject, runs: usize) -> Result<Row>
         (0..image.planes()).flat_map(|plane| image.channel(plane)).copied().collect();
     drop(image);
     let mut target = source.clone();
-    let (times, copies) = Times::by_turns(
+    let pairs = Times::by_turns(
         runs,
         || work.run(),
         || {
@@ -194,8 +259,8 @@ fn next_to_memcpy(work: &mut Work, subject: Subject, runs: usize) -> Result<Row>
             })
         },
     )?;
-    let mut row = Row::new(subject, &times);
-    row.of_memcpy = Some(rounded(copies.median() / times.median()));
+    let mut row = Row::new(subject, &pairs.ours);
+    row.of_memcpy = Some(rounded(pairs.theirs.median() / pairs.ours.median()));
     Ok(row)
 }
 
@@ -231,11 +296,28 @@ mod tests {
     fn every_definition_has_a_graph_and_a_reason() {
         let definitions = all(&[]).unwrap();
         assert!(!definitions.is_empty());
+        let options = Options::read(&["--textures".to_owned(), "/".to_owned()]).unwrap();
         for definition in definitions {
-            let graph = definition.graph.as_ref().map(|graph| home().join("graphs").join(graph));
-            assert_eq!(graph.is_some(), definition.texture.is_none(), "{}", definition.name);
-            assert!(graph.is_none_or(|graph| graph.is_file()), "{}", definition.name);
-            assert!(definition.why.ends_with('.'), "{}", definition.name);
+            let name = &definition.name;
+            let sources = [&definition.graph, &definition.texture, &definition.example];
+            assert_eq!(sources.into_iter().flatten().count(), 1, "{name}");
+            let is_here = definition.texture.is_none();
+            assert!(!is_here || definition.path(&options).is_file(), "{name}");
+            assert!(definition.why.ends_with('.'), "{name}");
+            for peer in &definition.peers {
+                assert!(peers::find(peer).is_ok(), "{name}: {peer}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_example_graph_is_measured() {
+        let definitions = all(&[]).unwrap();
+        for entry in fs::read_dir(home().join("../examples/graphs")).unwrap() {
+            let name = PathBuf::from(entry.unwrap().file_name());
+            let rows = definitions.iter().filter(|row| row.example.as_ref() == Some(&name));
+            let expected = if name.extension() == Some("xml".as_ref()) { 6 } else { 0 };
+            assert_eq!(rows.count(), expected, "{}", name.display());
         }
     }
 }

@@ -4,6 +4,9 @@
 //! about, with the hash of the result: a wrong answer is no result. *Catalogue* rows come from
 //! the registry, one block at its defaults each, so that no block goes unmeasured.
 //!
+//! Some definitions have *peers*: what other crates take for the same work. `--peers` measures
+//! them by turns with ours, in the same process on as many threads, and tells the ratio.
+//!
 //! A row is run several times in one process after one run that does not count; what is shown is
 //! the median and the spread of the middle half. Bias: the machine's other work is in the numbers,
 //! memory is warm, and inputs are there already, as in an editor but not as in a first call; the
@@ -14,19 +17,25 @@ mod cancel;
 mod card;
 mod catalogue;
 mod definition;
+mod given;
 mod measure;
 mod options;
+mod peers;
+mod plugin;
 mod process;
 mod record;
 mod report;
+mod series;
 mod work;
 
 use std::process::ExitCode;
 
+use ptlib::Cancel;
+
 use crate::{
     definition::Definition,
     options::{Mode, Options},
-    report::Row,
+    report::{PeerRow, Row},
 };
 
 /// What a part gives: its failure is a message for the person who ran it.
@@ -56,13 +65,24 @@ fn run(options: &Options) -> Result<bool> {
         Mode::Bless => bless(&definitions, options),
         Mode::Cancel => cancel::measure(&options.filters),
         Mode::Measure => measure(&definitions, options),
+        Mode::Peers => measure_peers(&definitions, options),
     }
+}
+
+/// Definitions without those that differ from the one before in the number of threads only.
+fn of_different_pictures(definitions: &[Definition]) -> impl Iterator<Item = &Definition> {
+    let mut before = "";
+    definitions.iter().filter(move |definition| {
+        let is_new = definition.name != before;
+        before = &definition.name;
+        is_new
+    })
 }
 
 /// Computes everything once, at full size where a hash is known.
 fn check(definitions: &[Definition], options: &Options) -> Result<bool> {
     let mut is_right = true;
-    for definition in definitions {
+    for definition in of_different_pictures(definitions) {
         let name = &definition.name;
         if let Some(reason) = definition.missing(options) {
             println!("skipped {name}: {reason}");
@@ -78,7 +98,7 @@ fn check(definitions: &[Definition], options: &Options) -> Result<bool> {
         }
     }
     for entry in catalogue::entries((64, 64), &options.filters)? {
-        if let Err(error) = entry.work.compute() {
+        if let Err(error) = entry.work.run_until(Cancel::new()) {
             is_right = false;
             println!("FAILED  {}: {error}", entry.name);
         }
@@ -88,7 +108,8 @@ fn check(definitions: &[Definition], options: &Options) -> Result<bool> {
 
 /// Writes the hashes of the results into the definitions.
 fn bless(definitions: &[Definition], options: &Options) -> Result<bool> {
-    for definition in definitions.iter().filter(|it| it.missing(options).is_none()) {
+    let known = of_different_pictures(definitions).filter(|it| it.missing(options).is_none());
+    for definition in known {
         let hash = definition.hash_now(options)?;
         if definition.verdict(&hash).is_err() {
             definition.write_hash(&hash)?;
@@ -126,7 +147,33 @@ fn measure(definitions: &[Definition], options: &Options) -> Result<bool> {
         }
     }
     if options.records {
-        println!("{}", record::write(&rows)?.display());
+        println!("{}", record::write(&rows, &[])?.display());
+    }
+    Ok(is_right)
+}
+
+fn measure_peers(definitions: &[Definition], options: &Options) -> Result<bool> {
+    let mut is_right = true;
+    let mut rows: Vec<PeerRow> = Vec::new();
+    println!("{}", report::PEER_HEADING);
+    for definition in definitions.iter().filter(|definition| !definition.peers.is_empty()) {
+        let (new, hash) = definition.measure_peers(options)?;
+        match definition.verdict(&hash) {
+            Ok(()) => {
+                new.iter().for_each(|row| println!("{row}"));
+                rows.extend(new);
+            }
+            Err(message) => {
+                is_right = false;
+                println!("{:<34} WRONG: {message}", definition.name);
+            }
+        }
+    }
+    if rows.is_empty() && is_right {
+        return Err("no row of that name has peers".into());
+    }
+    if options.records {
+        println!("{}", record::write(&[], &rows)?.display());
     }
     Ok(is_right)
 }

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use crate::Result;
 
 const USAGE: &str = "\
-usage: ptlib-bench [--runs N] [--textures DIR] [--check | --bless | --cancel | --record] [FILTER…]
+usage: ptlib-bench [--runs N] [--textures DIR] [--check | --bless | --cancel] [FILTER…]
+       ptlib-bench [--runs N] [--textures DIR] [--peers] [--record] [FILTER…]
 
 Measures the rows whose name contains one of the filters, or all of them.
   --runs N        how often each row is run at most (default 9)
@@ -13,6 +14,7 @@ Measures the rows whose name contains one of the filters, or all of them.
   --check         compute everything once and compare hashes; measure nothing
   --bless         write the hashes of the results into the definitions
   --cancel        measure how soon each block stops when it is asked to
+  --peers         measure only rows that have peers, by turns with them
   --record        write what was measured to bench/record";
 
 /// What to do.
@@ -22,6 +24,7 @@ pub(crate) enum Mode {
     Check,
     Bless,
     Cancel,
+    Peers,
 }
 
 /// The command line, read.
@@ -49,6 +52,7 @@ impl Options {
                 "--check" => options.mode = Mode::Check,
                 "--bless" => options.mode = Mode::Bless,
                 "--cancel" => options.mode = Mode::Cancel,
+                "--peers" => options.mode = Mode::Peers,
                 "--record" => options.records = true,
                 "--runs" => options.runs = arguments.next().ok_or(USAGE)?.parse()?,
                 "--textures" => options.textures = Some(arguments.next().ok_or(USAGE)?.into()),

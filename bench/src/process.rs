@@ -50,7 +50,7 @@ pub(crate) fn child(arguments: &[String]) -> Result {
         return Err("graph, picture, numbers, precision".into());
     };
     let numbers: Vec<u32> =
-        numbers.iter().map(|number| number.parse()).collect::<std::result::Result<_, _>>()?;
+        numbers.iter().map(|number| Ok(number.parse::<u32>()?)).collect::<Result<_>>()?;
     let [width, height, supersampling, threads] = numbers[..] else {
         return Err("width, height, supersampling, threads".into());
     };

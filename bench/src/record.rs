@@ -2,51 +2,87 @@
 
 use std::{
     fs,
-    path::PathBuf,
+    path::{Path, PathBuf},
     process::Command,
     time::{SystemTime, UNIX_EPOCH},
 };
 
 use ptlib::math::simd::SimdLevel;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::{Result, definition::home, report::Row};
+use crate::{
+    Result,
+    definition::home,
+    report::{PeerRow, Row},
+};
 
-#[derive(Serialize)]
-struct Record<'a> {
+#[derive(Serialize, Deserialize)]
+struct Record {
     date: String,
     machine: Machine,
     commit: String,
     toolchain: String,
-    rows: &'a [Row],
+    rows: Vec<Row>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    peers: Vec<PeerRow>,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 struct Machine {
     cpu: String,
     threads: usize,
-    system: &'static str,
-    simd: &'static str,
+    system: String,
+    simd: String,
 }
 
-/// Writes the rows to a file named after the day and the machine; returns its path.
-pub(crate) fn write(rows: &[Row]) -> Result<PathBuf> {
+/// Writes what was measured to a file named after the day and the machine; returns its path. Rows
+/// that the file has already stay, if they were not measured again. A file of another commit stays
+/// as it is: the new one has the commit in its name.
+pub(crate) fn write(rows: &[Row], peers: &[PeerRow]) -> Result<PathBuf> {
     let machine = Machine {
         cpu: cpu(),
         threads: std::thread::available_parallelism()?.get(),
-        system: std::env::consts::OS,
-        simd: SimdLevel::best().name(),
+        system: std::env::consts::OS.to_owned(),
+        simd: SimdLevel::best().name().to_owned(),
     };
     let days = SystemTime::now().duration_since(UNIX_EPOCH)?.as_secs() / 86_400;
     let date = date(days);
     let folder = home().join("record");
     fs::create_dir_all(&folder)?;
-    let path = folder.join(format!("{date}-{}.json", slug(&machine.cpu)));
     let commit = told_by("git", &["describe", "--always", "--dirty", "--abbrev=12"]);
     let toolchain = told_by("rustc", &["--version"]);
-    let record = Record { date, machine, commit, toolchain, rows };
+    let mut path = folder.join(format!("{date}-{}.json", slug(&machine.cpu)));
+    if read(&path).is_some_and(|old| old.commit != commit) {
+        path.set_file_name(format!("{date}-{}-{}.json", slug(&machine.cpu), slug(&commit)));
+    }
+    let (rows, peers) = (rows.to_vec(), peers.to_vec());
+    let mut record = Record { date, machine, commit, toolchain, rows, peers };
+    if let Some(old) = read(&path) {
+        record.rows = merged(old.rows, record.rows, |row| {
+            (row.name.clone(), row.width, row.threads, row.precision.clone())
+        });
+        record.peers = merged(old.peers, record.peers, |row| {
+            (row.name.clone(), row.width, row.threads, row.does.clone())
+        });
+    }
     fs::write(&path, serde_json::to_string_pretty(&record)? + "\n")?;
     Ok(path)
+}
+
+/// The record in a file, if there is one.
+fn read(path: &Path) -> Option<Record> {
+    serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
+}
+
+/// Old rows, with new ones in the place of those of the same key, and the others behind them.
+fn merged<T, K: PartialEq>(mut rows: Vec<T>, new: Vec<T>, key: impl Fn(&T) -> K) -> Vec<T> {
+    for row in new {
+        match rows.iter_mut().find(|old| key(old) == key(&row)) {
+            Some(old) => *old = row,
+            None => rows.push(row),
+        }
+    }
+    rows
 }
 
 /// The first line that a program prints; `unknown` if it cannot be run.
@@ -107,5 +143,11 @@ mod tests {
     #[test]
     fn names_of_processors_become_names_of_files() {
         assert_eq!(slug("AMD EPYC(TM) 7B13 @ 3.5GHz"), "amd-epyc-tm-7b13-3-5ghz");
+    }
+
+    #[test]
+    fn new_rows_take_the_place_of_old_ones() {
+        let rows = merged(vec![("a", 1), ("b", 2)], vec![("b", 3), ("c", 4)], |row| row.0);
+        assert_eq!(rows, [("a", 1), ("b", 3), ("c", 4)]);
     }
 }

@@ -6,14 +6,14 @@
 //! enough for two sets of cards and what one run keeps: runs take the sets by turns, and both
 //! sets are used before each run, so that the result before the last is what the cache forgets.
 
-use std::time::Duration;
+use std::{path::Path, time::Duration};
 
 use ptlib::{
     BlockId, Cancel, ComputeOptions, Engine, EngineOptions, Graph, Image, Limits, Precision,
     block::BlockSpec, params::ParamValue, run::OutputShape,
 };
 
-use crate::{Result, card, measure::timed};
+use crate::{Result, card, given, measure::timed};
 
 /// What to compute, and how.
 #[derive(Debug)]
@@ -40,6 +40,15 @@ pub(crate) struct Settings {
 impl Work {
     /// The computation of a graph that an [`engine`] knows the types of.
     pub(crate) fn new(graph: Graph, settings: Settings) -> Result<Self> {
+        Self::with_plugin(graph, settings, None)
+    }
+
+    /// The same for a graph with blocks of a plug-in.
+    pub(crate) fn with_plugin(
+        graph: Graph,
+        settings: Settings,
+        plugin: Option<&Path>,
+    ) -> Result<Self> {
         let is_card = |(_, block): &(_, &ptlib::graph::Block)| block.type_id() == card::ID;
         let cards: Vec<BlockId> = graph.blocks().filter(is_card).map(|(id, _)| id).collect();
         let mut other = graph.clone();
@@ -47,14 +56,14 @@ impl Work {
             other.set_int(*card, "number", 1)?;
         }
         let work = Self {
-            engine: engine(settings.threads, 0),
+            engine: engine_with(settings.threads, 0, plugin)?,
             graphs: [graph, other],
             cards,
             runs: 0,
             settings,
         };
         let cache_bytes = work.cache_bytes()?;
-        Ok(Self { engine: engine(settings.threads, cache_bytes), ..work })
+        Ok(Self { engine: engine_with(settings.threads, cache_bytes, plugin)?, ..work })
     }
 
     /// Two sets of cards, and one result and a half.
@@ -87,6 +96,15 @@ impl Work {
         Ok(self.engine.compute(&self.graphs[0], self.settings.block, 0, self.options())?)
     }
 
+    /// The picture that the graph of the first set of cards reads: a card, or what it was given.
+    pub(crate) fn picture(&self) -> Result<Option<Image>> {
+        let graph = &self.graphs[0];
+        match self.cards.first() {
+            Some(card) => Ok(Some(self.engine.compute(graph, *card, 0, self.options())?)),
+            None => Ok(given::picture(graph).cloned()),
+        }
+    }
+
     /// Computes once more; returns how long that took.
     pub(crate) fn run(&mut self) -> Result<Duration> {
         for graph in &self.graphs {
@@ -97,7 +115,7 @@ impl Work {
         self.runs += 1;
         let graph = &self.graphs[self.runs % 2];
         let (block, options) = (self.settings.block, self.options());
-        timed(|| Ok(self.engine.compute(graph, block, 0, options).map(drop)?))
+        timed(|| Ok(self.engine.compute_value(graph, block, 0, options).map(drop)?))
     }
 
     /// Gets ready for [`run_until`](Self::run_until): its inputs are in the cache afterwards.
@@ -111,7 +129,7 @@ impl Work {
     /// Computes once more, or stops on request.
     pub(crate) fn run_until(&self, cancel: Cancel) -> std::result::Result<(), ptlib::Error> {
         let options = ComputeOptions { cancel: Some(cancel), ..self.options() };
-        self.engine.compute(&self.graphs[0], self.settings.block, 0, options).map(drop)
+        self.engine.compute_value(&self.graphs[0], self.settings.block, 0, options).map(drop)
     }
 
     /// The type of the block that is computed.
@@ -140,6 +158,15 @@ pub(crate) fn engine(threads: u32, cache_bytes: u64) -> Engine {
     let engine = Engine::new(options);
     engine.registry().add(&card::FAMILY).expect("no built-in block is a test card");
     engine
+}
+
+/// The same with the blocks of a plug-in, if there is one.
+pub(crate) fn engine_with(threads: u32, cache_bytes: u64, plugin: Option<&Path>) -> Result<Engine> {
+    let engine = engine(threads, cache_bytes);
+    if let Some(plugin) = plugin {
+        engine.load_plugin(plugin)?;
+    }
+    Ok(engine)
 }
 
 /// The hash of an image's size and of the bits of its numbers.

@@ -729,7 +729,8 @@ PTL_API uint32_t PTL_CALL ptl_abi_version(void);
 
 /**
  * Whether this build has a feature, 1 or 0: "formats" (ptl_image_save() writes other files than
- * PNG). Unknown names are 0.
+ * PNG: all that there are), or one of them: "png", "exr", "tiff", "jpeg", "webp", "bmp", "tga",
+ * "qoi", "pnm". Unknown names are 0.
  *
  * Threads: any.
  * Since:   0.1

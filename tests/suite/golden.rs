@@ -75,7 +75,8 @@ fn check_picture(spec: &BlockSpec, image: &Image, bless: bool) -> Option<String>
     Some(format!("{}: another picture, see {}", spec.about.id, written.display()))
 }
 
-fn hash(value: &Value) -> String {
+/// The hash of a value's bits.
+pub(crate) fn hash(value: &Value) -> String {
     let mut hasher = blake3::Hasher::new();
     match value {
         Value::Image(image) => {

@@ -3,7 +3,6 @@
 use ptlib::{
     ComputeOptions, Engine, EngineOptions, ErrorKind, Image, Precision,
     block::{BlockSpec, Planes},
-    math::simd::SimdLevel,
     params::{ParamKind, ParamSpec, ParamValue},
     value::{Kind, Value},
 };
@@ -200,30 +199,6 @@ fn same_bits_when_rows_are_cut_into_segments() {
             let (pixel, channel) = (i / 3, i % 3);
             let expected = cut[if planes == 1 { pixel } else { channel * 7500 + pixel }];
             assert_eq!(u32::from_ne_bytes(*number), expected, "{}, pixel {pixel}", spec.about.id);
-        }
-    }
-}
-
-#[test]
-fn same_bits_at_every_simd_level() {
-    let engines: Vec<_> = SimdLevel::available()
-        .into_iter()
-        .map(|simd| {
-            let options = EngineOptions { cache_bytes: 0, threads: 1, simd, ..Default::default() };
-            (simd.name(), Engine::new(options))
-        })
-        .collect();
-    for spec in engines[0].1.registry().blocks() {
-        for precision in PRECISIONS {
-            let image = |engine: &Engine| {
-                let spec = engine.registry().find(spec.about.id).expect("same registry");
-                let specimen = Specimen::new(engine, spec, 83, 31).precision(precision);
-                bits(&compute(engine, &specimen, ComputeOptions::default()))
-            };
-            let reference = image(&engines[0].1);
-            for (name, engine) in &engines[1..] {
-                assert!(image(engine) == reference, "{} differs at {name}", spec.about.id);
-            }
         }
     }
 }

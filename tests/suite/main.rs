@@ -26,4 +26,5 @@ mod plugin_values;
 #[cfg(target_os = "linux")]
 mod plugins;
 mod resolution;
+mod simd;
 mod specimen;

@@ -49,13 +49,30 @@ pub extern "C" fn ptl_abi_version() -> u32 {
 }
 
 /// Whether this build has a feature, 1 or 0: "formats" (ptl_image_save() writes other files than
-/// PNG). Unknown names are 0.
+/// PNG: all that there are), or one of them: "png", "exr", "tiff", "jpeg", "webp", "bmp", "tga",
+/// "qoi", "pnm". Unknown names are 0.
 ///
 /// Threads: any.
 /// Since:   0.1
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn ptl_has_feature(name: *const c_char) -> i32 {
-    pt_fn!(else 0; name: &str => i32::from(name == "formats" && cfg!(feature = "formats")))
+    pt_fn!(else 0; name: &str => i32::from(has_feature(name)))
+}
+
+fn has_feature(name: &str) -> bool {
+    let features = [
+        ("formats", cfg!(feature = "formats")),
+        ("png", cfg!(feature = "png")),
+        ("exr", cfg!(feature = "exr")),
+        ("tiff", cfg!(feature = "tiff")),
+        ("jpeg", cfg!(feature = "jpeg")),
+        ("webp", cfg!(feature = "webp")),
+        ("bmp", cfg!(feature = "bmp")),
+        ("tga", cfg!(feature = "tga")),
+        ("qoi", cfg!(feature = "qoi")),
+        ("pnm", cfg!(feature = "pnm")),
+    ];
+    features.contains(&(name, true))
 }
 
 /// The size in bytes that the library has for a struct (PTL_STRUCT_...); 0 for unknown ones. For

@@ -2,9 +2,9 @@
 
 use super::{c_programs, csharp};
 use crate::{
-    Result, dist, docs, format, guide, header,
+    Result, bench, dist, docs, format, guide, header,
     process::{self, cargo, tool},
-    repository, tidy,
+    repository, size, tidy,
 };
 
 /// One step.
@@ -31,12 +31,16 @@ pub(super) const STEPS: &[Step] = &[
     quick("reference", "docs/blocks is what the blocks declare, and links lead somewhere", |_| {
         docs::run(&["--check".to_owned()])
     }),
+    quick("speed", "the tables of docs/src/speed.md are what the records give", |_| {
+        bench::run(&["page", "--check"].map(str::to_owned))
+    }),
     quick("clippy", "no warning of rustc or clippy", clippy),
     quick("tests", "unit tests, laws, conformance, golden images, C ABI", tests),
     slow("docs", "the documentation has no broken links", &[], rustdoc),
-    slow("features", "ptlib without its default features", &[], features),
+    slow("features", "ptlib without picture formats, and with one of them", &[], features),
     slow("guide", "CONTRIBUTING.md, replayed", &[], |_| guide::run(&[])),
     slow("dist", "the installable tree", &[], |_| dist::make(&dist::Options::default())),
+    slow("size", "the shared library is small", &[], |_| size::run(&["--check".to_owned()])),
     slow("soname", "programs ask for the versioned library", &["dist"], c_programs::soname),
     slow("pkg-config", "C and C++ programs, shared library", &["dist"], c_programs::pkg_config),
     slow("static", "C and C++ programs, static library", &["dist"], c_programs::static_library),
@@ -45,8 +49,9 @@ pub(super) const STEPS: &[Step] = &[
     slow("valgrind", "no invalid access, no leak", &["dist"], c_programs::valgrind),
     slow("sanitizer", "the same by AddressSanitizer", &["dist"], c_programs::sanitizer),
     slow("csharp", "the C# binding, under each .NET that is here", &["dist"], csharp::csharp),
+    slow("simd", "the same bits without the vectoriser, and at every SIMD level", &[], simd),
     // Behind `dist`, which asks rustc about the same package and would have it compiled again.
-    slow("bench", "the benchmarks give the right pictures", &[], bench),
+    slow("bench", "the benchmarks give the right pictures", &[], benchmarks),
     slow("fuzz", "a short run of each fuzz target", &[], fuzz),
 ];
 
@@ -84,14 +89,36 @@ fn rustdoc(_: bool) -> Result {
     process::run(cargo().args(arguments).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
+/// A build without any format of picture files has no warning and passes its unit tests; so does
+/// one with a single format that is not PNG.
 fn features(_: bool) -> Result {
     tool("cargo-clippy")?;
-    let arguments = ["clippy", "--locked", "-p", "ptlib", "--all-targets", "--no-default-features"];
-    process::run(cargo().args(arguments).args(["--", "-D", "warnings"]))
+    for features in ["", "exr"] {
+        let of_ptlib = ["--locked", "-p", "ptlib", "--no-default-features", "--features", features];
+        let mut clippy = cargo();
+        clippy.arg("clippy").args(of_ptlib).args(["--all-targets", "--", "-D", "warnings"]);
+        process::run(&mut clippy)?;
+        process::run(cargo().arg("test").args(of_ptlib).arg("--lib"))?;
+    }
+    Ok(())
+}
+
+/// The compiler vectorises nothing in the profile for development (level 1): what is computed there
+/// is scalar, and the hashes of it are what every level has to give in the profile for release.
+fn simd(_: bool) -> Result {
+    let folder = repository::target().join("simd");
+    process::empty_folder(&folder)?;
+    for profile in ["dev", "release"] {
+        let mut cargo = cargo();
+        cargo.args(["test", "--locked", "-p", "ptlib-tests", "--profile", profile]);
+        cargo.args(["--", "simd::", "golden::"]).env("PTLIB_HASHES", folder.join("hashes.txt"));
+        process::run(&mut cargo)?;
+    }
+    Ok(())
 }
 
 /// Each benchmark once: a fast wrong answer is none.
-fn bench(_: bool) -> Result {
+fn benchmarks(_: bool) -> Result {
     let arguments = ["run", "--locked", "--release", "-p", "ptlib-bench", "--", "--check"];
     process::run(cargo().args(arguments))
 }
