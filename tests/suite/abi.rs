@@ -83,7 +83,7 @@ fn library() -> &'static Path {
         let target = scratch().join("target");
         let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(["build", "--release", "--package", "ptlib"]);
-        cargo.args(["--no-default-features", "--features", "test-blocks"]);
+        cargo.args(["--no-default-features", "--features", "png,test-blocks"]);
         // What takes long and changes nothing here.
         cargo.env("CARGO_PROFILE_RELEASE_LTO", "off");
         cargo.env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16");

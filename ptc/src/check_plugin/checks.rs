@@ -8,10 +8,14 @@ use std::{
     time::{Duration, Instant},
 };
 
+use super::{
+    inputs,
+    parameters::{drawn, word},
+};
 use ptlib::{
     BlockId, Cancel, ComputeOptions, Engine, EngineOptions, Error, ErrorKind, Graph, Image,
     Precision,
-    block::{BlockSpec, PluginInfo},
+    block::{BlockSpec, PluginInfo, Role},
     params::{ParamKind, ParamSpec, ParamValue},
     plugin::probe,
     run::LogLevel,
@@ -203,6 +207,29 @@ impl Subject {
     }
 }
 
+/// Which of the optional inputs something is connected to.
+#[derive(Debug, Clone, Copy)]
+enum Given {
+    All,
+    /// The first of them.
+    First,
+    None,
+}
+
+impl Given {
+    /// From the most to the fewest.
+    const ALL: [Self; 3] = [Self::All, Self::First, Self::None];
+
+    /// Whether the optional input with that number, from 1, is connected.
+    fn has(self, number: u32) -> bool {
+        match self {
+            Self::All => true,
+            Self::First => number == 1,
+            Self::None => false,
+        }
+    }
+}
+
 /// A block that is checked.
 struct Specimen<'a> {
     subject: &'a Subject,
@@ -214,37 +241,65 @@ impl Specimen<'_> {
         self.spec.params.iter().map(ParamSpec::default_value).collect()
     }
 
-    /// A graph with the block, and something at its inputs; at the optional ones if `all`. `None`
-    /// if an input needs what this check cannot make.
-    fn graph(&self, values: &[ParamValue], all: bool) -> Result<Option<(Graph, BlockId)>, Error> {
+    /// A graph with the block, and something at its inputs. `None` if one needs what cannot be made
+    /// up.
+    fn graph(
+        &self,
+        values: &[ParamValue],
+        given: Given,
+    ) -> Result<Option<(Graph, BlockId)>, Error> {
         let mut graph = self.subject.engine.new_graph();
         let block = graph.add(self.spec.about.id)?;
         for (spec, value) in self.spec.params.iter().zip(values) {
             graph.set(block, spec.id, value.clone())?;
         }
+        let mut optional = 0;
         for (number, port) in (0..).zip(self.spec.about.inputs) {
-            if port.is_optional && !all {
+            optional += u32::from(port.is_optional);
+            if port.is_optional && !given.has(optional) {
                 continue;
             }
-            if port.kind != Kind::Image {
-                if port.is_optional {
-                    continue;
-                }
-                return Ok(None);
+            match inputs::source(&mut graph, port.kind, number)? {
+                Some(source) => graph.connect(source, 0, block, number)?,
+                None if port.is_optional => {}
+                None => return Ok(None),
             }
-            let noise = graph.add("perlin noise")?;
-            graph.set_block_seed(noise, Some(u64::from(number) + 1))?;
-            let source = match number % 2 {
-                0 => noise,
-                _ => {
-                    let coloured = graph.add("adjust rgb")?;
-                    graph.connect(noise, 0, coloured, 0)?;
-                    coloured
+        }
+        if self.spec.about.role == Role::Input {
+            for output in self.spec.about.outputs {
+                match inputs::made(output.kind)? {
+                    Some(value) => graph.set_input(block, Some(value))?,
+                    None => return Ok(None),
                 }
-            };
-            graph.connect(source, 0, block, number)?;
+            }
         }
         Ok(Some((graph, block)))
+    }
+
+    /// The graph with the most inputs, and default parameters, that computes. `None` if the block
+    /// needs what cannot be made up, such as a file.
+    ///
+    /// # Errors
+    /// Why nothing computes.
+    fn example(&self) -> Result<Option<(Graph, BlockId)>, Error> {
+        let mut refused = None;
+        for given in Given::ALL {
+            let Some(graph) = self.graph(&self.default_values(), given)? else { return Ok(None) };
+            match self.compute(&graph, || options((8, 8), None, 1)) {
+                Ok(_) => return Ok(Some(graph)),
+                Err(error) => refused = Some(error),
+            }
+        }
+        let needs_file = |spec: &ParamSpec| {
+            let is_empty = spec.default_value() == ParamValue::Text("".into());
+            is_empty && matches!(spec.kind, ParamKind::Path(_))
+        };
+        match refused {
+            Some(error) if is_defect(&error) => Err(error),
+            Some(_) if self.spec.params.iter().any(needs_file) => Ok(None),
+            Some(error) => Err(error),
+            None => Ok(None),
+        }
     }
 
     /// All outputs as bits, and their number.
@@ -262,12 +317,20 @@ impl Specimen<'_> {
 
     fn defaults(&self) -> Faults {
         let mut faults = Vec::new();
-        for all in [false, true] {
-            let Some(graph) = self.graph(&self.default_values(), all)? else { return Ok(faults) };
-            for precision in [Precision::EightBit, Precision::Float] {
-                self.compute(&graph, || options((64, 64), Some(precision), 0))?;
-                faults.extend(self.subject.defects());
+        let Some(graph) = self.example()? else { return Ok(faults) };
+        for precision in [Precision::EightBit, Precision::Float] {
+            self.compute(&graph, || options((64, 64), Some(precision), 0))?;
+            faults.extend(self.subject.defects());
+        }
+        for given in Given::ALL {
+            let Some(graph) = self.graph(&self.default_values(), given)? else { continue };
+            // A block may want one of two inputs.
+            if let Err(error) = self.compute(&graph, || options((64, 64), None, 0))
+                && !matches!(error.kind(), ErrorKind::Unconnected | ErrorKind::InvalidArgument)
+            {
+                faults.push(error.to_string());
             }
+            faults.extend(self.subject.defects());
         }
         Ok(faults)
     }
@@ -277,9 +340,8 @@ impl Specimen<'_> {
         for trial in 0..TRIALS {
             let values: Vec<_> =
                 (0..).zip(self.spec.params).map(|(i, p)| drawn(p, trial, i)).collect();
-            let Some(graph) = self.graph(&values, trial.is_multiple_of(2))? else {
-                return Ok(faults);
-            };
+            let given = if trial.is_multiple_of(2) { Given::All } else { Given::None };
+            let Some(graph) = self.graph(&values, given)? else { return Ok(faults) };
             let size = SIZES[usize::try_from(trial).unwrap_or_default() % SIZES.len()];
             let with = |fault: &str| {
                 let named = self.spec.params.iter().zip(&values);
@@ -316,7 +378,7 @@ impl Specimen<'_> {
 
     /// Whether results are the same for all of `variants`.
     fn same(&self, what: &str, variants: &[impl Fn() -> ComputeOptions<'static>]) -> Faults {
-        let Some(graph) = self.graph(&self.default_values(), true)? else { return Ok(vec![]) };
+        let Some(graph) = self.example()? else { return Ok(vec![]) };
         let mut first = None;
         for (number, variant) in variants.iter().enumerate() {
             let found = self.compute(&graph, variant)?;
@@ -337,7 +399,7 @@ impl Specimen<'_> {
             if port.kind != Kind::Image {
                 return Ok(vec![]);
             }
-            let Some((graph, block)) = self.graph(&self.default_values(), true)? else {
+            let Some((graph, block)) = self.graph(&self.default_values(), Given::All)? else {
                 return Ok(vec![]);
             };
             let block = graph.block(block)?;
@@ -352,7 +414,7 @@ impl Specimen<'_> {
     }
 
     fn cancel(&self) -> Faults {
-        let Some(graph) = self.graph(&self.default_values(), true)? else { return Ok(vec![]) };
+        let Some(graph) = self.example()? else { return Ok(vec![]) };
         let mut side = 1024;
         // Until a computation takes long enough to be asked; three tries, because machines are busy.
         let mut tries = Vec::new();
@@ -400,7 +462,7 @@ impl Specimen<'_> {
     }
 
     fn environment(&self, before: &probe::Environment) -> Faults {
-        let Some(graph) = self.graph(&self.default_values(), true)? else { return Ok(vec![]) };
+        let Some(graph) = self.example()? else { return Ok(vec![]) };
         self.compute(&graph, || options((64, 64), None, 1))?;
         let now = probe::Environment::now();
         let mut faults = Vec::new();
@@ -414,7 +476,7 @@ impl Specimen<'_> {
     }
 
     fn creations(&self) -> Faults {
-        let Some(graph) = self.graph(&self.default_values(), true)? else { return Ok(vec![]) };
+        let Some(graph) = self.example()? else { return Ok(vec![]) };
         let create = |times| -> Result<(), Error> {
             for _ in 0..times {
                 self.compute(&graph, || options((8, 8), None, 1))?;
@@ -488,51 +550,6 @@ fn bits(value: &Value) -> Vec<u32> {
 /// Whether an error is the block's fault, whatever its parameters are.
 fn is_defect(error: &Error) -> bool {
     matches!(error.kind(), ErrorKind::PluginPanic | ErrorKind::Internal)
-}
-
-/// A value of a parameter: an end of its range, its default, or something between.
-fn drawn(param: &ParamSpec, trial: u64, number: u32) -> ParamValue {
-    let unit = f64::from(ptlib::math::hash::uniform(trial, number, 0, 0));
-    let way = ptlib::math::hash::hash(trial, number, 1, 0) % 5;
-    let between = |min: f64, max: f64| match way {
-        0 => min,
-        1 => max,
-        _ => min * (1.0 - unit) + max * unit,
-    };
-    match param.kind {
-        ParamKind::Int { hard, soft } => {
-            let range = if way == 2 { soft } else { hard };
-            let number = between(range.min.into(), range.max.into());
-            ParamValue::Int(ptlib::math::convert::truncate64_to_i32(number))
-        }
-        ParamKind::Float { hard, soft } => {
-            let range = if way == 2 { soft } else { hard };
-            ParamValue::Float(between(range.min, range.max))
-        }
-        ParamKind::Bool => ParamValue::Bool(way.is_multiple_of(2)),
-        ParamKind::Choice(items) => {
-            let count = u32::try_from(items.len()).unwrap_or(1).max(1);
-            ParamValue::Choice(ptlib::math::hash::hash(trial, number, 2, 0) % count)
-        }
-        ParamKind::Text | ParamKind::Path(_) => match way {
-            0 => ParamValue::Text("".into()),
-            1 => ParamValue::Text("π < \"ü\" & \n%s%n".into()),
-            2 => ParamValue::Text("x".repeat(5000).into()),
-            _ => param.default_value(),
-        },
-    }
-}
-
-/// A value in a word.
-fn word(value: &ParamValue) -> String {
-    match value {
-        ParamValue::Int(value) => value.to_string(),
-        ParamValue::Float(value) => value.to_string(),
-        ParamValue::Bool(value) => value.to_string(),
-        ParamValue::Choice(value) => value.to_string(),
-        ParamValue::Text(text) if text.len() > 40 => format!("(a text of {} bytes)", text.len()),
-        ParamValue::Text(text) => format!("{text:?}"),
-    }
 }
 
 /// The memory of this process, where the system tells it.

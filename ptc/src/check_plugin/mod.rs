@@ -6,6 +6,8 @@
 
 mod checks;
 mod child;
+mod inputs;
+mod parameters;
 
 use std::{
     io::Write,

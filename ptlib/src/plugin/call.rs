@@ -1,7 +1,6 @@
 //! One call into a plug-in: what the plug-in may ask meanwhile, what it said, what it borrowed.
 
 use std::{
-    alloc::{Layout, alloc_zeroed, dealloc},
     ffi::{CStr, c_char, c_void},
     ptr,
     sync::{
@@ -19,13 +18,11 @@ use crate::{
     error::{Error, ErrorKind},
     limits::Limits,
     math::convert::count,
+    value::zeros::Zeros,
 };
 
 /// A call that takes longer and does not ask whether to stop is reported.
 const PATIENCE: Duration = Duration::from_millis(100);
-
-/// Memory for plug-ins starts at multiples of this many bytes.
-const ALIGNMENT: usize = 64;
 
 /// What a call may ask of the engine.
 #[derive(Clone, Copy)]
@@ -66,12 +63,19 @@ pub(super) struct Call<'a> {
 /// What a plug-in borrowed for the time of a call.
 #[derive(Default)]
 struct Scratch {
-    pieces: Vec<(*mut u8, Layout)>,
+    pieces: Vec<Piece>,
     bytes: u64,
 }
 
-// SAFETY: the pieces are memory that only this list frees.
-unsafe impl Send for Scratch {}
+struct Piece {
+    /// Its aligned start, which is how the plug-in names it.
+    first: *mut c_void,
+    size: u64,
+    memory: Zeros,
+}
+
+// SAFETY: `first` points into the memory that the piece owns.
+unsafe impl Send for Piece {}
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -176,41 +180,29 @@ impl<'a> Call<'a> {
         }
         let none =
             || Error::new(ErrorKind::NoMemory, format!("the system has no {size} bytes left"));
-        let layout = Layout::from_size_align(size.max(1), ALIGNMENT).map_err(|_| none())?;
-        // SAFETY: the size is not 0.
-        let memory = unsafe { alloc_zeroed(layout) };
-        if memory.is_null() {
-            return Err(none());
-        }
-        scratch.pieces.push((memory, layout));
+        let wanted = Zeros::wanted(size.div_ceil(size_of::<f32>()));
+        let memory = Zeros::new(wanted).ok_or_else(none)?;
+        let start = memory.aligned_start();
+        // The pointer is taken where the memory stays: whoever moves it is its only user.
+        let piece =
+            scratch.pieces.push_mut(Piece { first: ptr::null_mut(), size: size as u64, memory });
+        piece.first = ptr::from_mut(&mut piece.memory.numbers_mut()[start..]).cast();
+        let first = piece.first;
         scratch.bytes = bytes;
-        Ok(memory.cast())
+        Ok(first)
     }
 
     /// Frees memory of [`allocate`](Self::allocate).
     pub(super) fn release(&self, memory: *mut c_void) {
         let mut scratch = lock(&self.scratch);
-        let place = scratch.pieces.iter().position(|(piece, _)| piece.cast() == memory);
-        if let Some(place) = place {
-            let (piece, layout) = scratch.pieces.swap_remove(place);
-            scratch.bytes -= layout.size() as u64;
-            // SAFETY: it was allocated with this layout, and is no longer in the list.
-            unsafe { dealloc(piece, layout) };
+        if let Some(place) = scratch.pieces.iter().position(|piece| piece.first == memory) {
+            scratch.bytes -= scratch.pieces.swap_remove(place).size;
         }
     }
 
     /// Keeps the bytes of a file until the call ends.
     pub(super) fn keep(&self, bytes: Arc<[u8]>) {
         lock(&self.read).push(bytes);
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        for (piece, layout) in self.pieces.drain(..) {
-            // SAFETY: it was allocated with this layout, and nobody else frees it.
-            unsafe { dealloc(piece, layout) };
-        }
     }
 }
 

@@ -348,6 +348,7 @@ impl Inner {
         }
         let memory_bytes = options.memory_bytes.unwrap_or(self.options.limits.memory_bytes);
         plan.check_memory(memory_bytes)?;
+        let limits = Limits { memory_bytes, ..self.options.limits };
         let mut sinks = self.sinks(&plan, to)?;
         let first = plan.nodes[plan.wanted[0].node].id;
         // A closure of its own lets the monitor borrow it for as long as the locals live.
@@ -365,7 +366,7 @@ impl Inner {
             files: &files,
             cache: &self.cache,
             monitor: &monitor,
-            limits: &self.options.limits,
+            limits: &limits,
             memory_bytes,
             log: &self.log,
             keep_going: options.keep_going,

@@ -35,6 +35,7 @@ pub mod ring;
 mod strands;
 mod stream;
 mod words;
+pub(crate) mod zeros;
 
 pub use bounds::Bounds;
 pub use content::ContentHash;

@@ -5,17 +5,12 @@ use std::{
     sync::{Arc, Mutex, PoisonError, Weak},
 };
 
+use super::zeros::Zeros;
 use crate::error::{Error, ErrorKind};
-
-/// Planes start at multiples of this many bytes: a cache line, and the widest SIMD register.
-const ALIGNMENT: usize = 64;
-
-/// Extra elements of an allocation, so that an aligned start is always inside.
-const PADDING: usize = ALIGNMENT / size_of::<f32>() - 1;
 
 /// W × H numbers, row by row, 64-byte aligned. Its memory returns to the pool it came from.
 pub struct Plane {
-    buffer: Memory,
+    buffer: Zeros,
     start: usize,
     len: usize,
     pool: Weak<BufferPool>,
@@ -50,64 +45,11 @@ impl fmt::Debug for Plane {
     }
 }
 
-/// What a plane lies in.
-#[derive(Debug)]
-enum Memory {
-    Heap(Box<[f32]>),
-    /// Pages of their own, which may be large ones. Fresh memory costs a page fault per page:
-    /// with pages of 4 KiB that is a third of the time that a graph takes when it is computed for
-    /// the first time.
-    #[cfg(target_os = "linux")]
-    Pages(memmap2::MmapMut),
-}
-
-/// The least bytes for which large pages, of 2 MiB, are worth while.
-#[cfg(target_os = "linux")]
-const LARGE: usize = 4 << 20;
-
-impl Memory {
-    /// Zeros; `None` if the system has no memory for them.
-    fn zeros(len: usize) -> Option<Self> {
-        #[cfg(target_os = "linux")]
-        if let Some(bytes) = len.checked_mul(size_of::<f32>()).filter(|bytes| *bytes >= LARGE) {
-            let pages = memmap2::MmapMut::map_anon(bytes).ok()?;
-            // A system without large pages refuses; then they are small ones.
-            let _ = pages.advise(memmap2::Advice::HugePage);
-            return Some(Self::Pages(pages));
-        }
-        bytemuck::try_zeroed_slice_box(len).ok().map(Self::Heap)
-    }
-
-    #[inline]
-    fn numbers(&self) -> &[f32] {
-        match self {
-            Self::Heap(numbers) => numbers,
-            #[cfg(target_os = "linux")]
-            Self::Pages(pages) => bytemuck::cast_slice(pages),
-        }
-    }
-
-    #[inline]
-    fn numbers_mut(&mut self) -> &mut [f32] {
-        match self {
-            Self::Heap(numbers) => numbers,
-            #[cfg(target_os = "linux")]
-            Self::Pages(pages) => bytemuck::cast_slice_mut(pages),
-        }
-    }
-}
-
-impl Default for Memory {
-    fn default() -> Self {
-        Self::Heap(Box::default())
-    }
-}
-
 /// Memory of planes that are no longer used, kept for the next ones: fresh memory costs more than
 /// most blocks cost.
 #[derive(Debug, Default)]
 pub struct BufferPool {
-    free: Mutex<Vec<Memory>>,
+    free: Mutex<Vec<Zeros>>,
 }
 
 impl BufferPool {
@@ -123,19 +65,21 @@ impl BufferPool {
     /// # Errors
     /// [`ErrorKind::NoMemory`] if the system has no memory for it.
     pub fn plane(self: &Arc<Self>, len: usize) -> Result<Plane, Error> {
-        let wanted = len + PADDING;
+        let wanted = Zeros::wanted(len);
         let recycled = {
             let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
-            free.iter().position(|buffer| buffer.numbers().len() == wanted).map(|i| free.swap_remove(i))
+            free.iter()
+                .position(|buffer| buffer.numbers().len() == wanted)
+                .map(|i| free.swap_remove(i))
         };
         let buffer = match recycled {
             Some(buffer) => buffer,
-            None => Memory::zeros(wanted).ok_or_else(|| {
+            None => Zeros::new(wanted).ok_or_else(|| {
                 let bytes = wanted as u64 * size_of::<f32>() as u64;
                 Error::new(ErrorKind::NoMemory, format!("the system has no {bytes} bytes left"))
             })?,
         };
-        let start = buffer.numbers().as_ptr().align_offset(ALIGNMENT);
+        let start = buffer.aligned_start();
         let mut plane = Plane { buffer, start, len, pool: Arc::downgrade(self) };
         if cfg!(debug_assertions) {
             plane.data_mut().fill(f32::NAN);
@@ -153,7 +97,7 @@ impl BufferPool {
         });
     }
 
-    fn give_back(&self, buffer: Memory) {
+    fn give_back(&self, buffer: Zeros) {
         self.free.lock().unwrap_or_else(PoisonError::into_inner).push(buffer);
     }
 }
@@ -161,6 +105,7 @@ impl BufferPool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::value::zeros::ALIGNMENT;
 
     #[test]
     fn planes_are_aligned_and_recycled() {

@@ -67,6 +67,10 @@ impl Block for LoadMesh {
 
     fn compute(&self, call: &mut Call<'_>) -> Result<(), BlockError> {
         let Self(Params { path, format, .. }) = self;
+        if path.is_empty() {
+            let message = "parameter \"path\" names no file: give one in OBJ, PLY or glTF";
+            return Err(BlockError::invalid(message));
+        }
         let format = match format {
             Format::ByContent => None,
             Format::Obj => Some(files::Format::Obj),

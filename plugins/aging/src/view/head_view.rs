@@ -2,9 +2,9 @@
 //!
 //! The head is seen in perspective and drawn by a software rasteriser, tile by tile
 //! ([`ptlib_raster`]), so that its picture has the same bits everywhere. Wrinkles are searched for
-//! along the line of sight (parallax occlusion mapping; N. Tatarchuk, "Dynamic Parallax Occlusion Mapping with
-//! Approximate Soft Shadows", 2006), so they hide each other although the mesh is smooth. Hair is
-//! drawn over it from far to near, in the light of Kajiya and Kay.
+//! along the line of sight (parallax occlusion mapping; N. Tatarchuk, "Dynamic Parallax Occlusion
+//! Mapping with Approximate Soft Shadows", 2006), so they hide each other although the mesh is
+//! smooth. Hair is drawn over it from far to near, in the light of Kajiya and Kay.
 //!
 //! Where the head ends a pixel is covered or not; supersampling of the graph smooths that.
 
