@@ -126,7 +126,9 @@ impl BufferPool {
         let wanted = len + PADDING;
         let recycled = {
             let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
-            free.iter().position(|buffer| buffer.numbers().len() == wanted).map(|i| free.swap_remove(i))
+            free.iter()
+                .position(|buffer| buffer.numbers().len() == wanted)
+                .map(|i| free.swap_remove(i))
         };
         let buffer = match recycled {
             Some(buffer) => buffer,
