@@ -1,4 +1,6 @@
 using System;
+using System.Threading;
+using PtLib.Blocks;
 using PtLib.Tests;
 
 namespace PtLib.Aging.Tests
@@ -16,6 +18,7 @@ namespace PtLib.Aging.Tests
             runner.Run("graph: blocks have names, also in its file", Named);
             runner.Run("graph: computed by hand it gives what a run gives", ByHand);
             runner.Run("graph: another age alone", Ages);
+            runner.Run("graph: another age computes neither wrinkles nor regions again", Reuses);
             runner.Run("graph: a head is needed", NeedsHead);
         }
 
@@ -94,6 +97,34 @@ namespace PtLib.Aging.Tests
             }
         }
 
+        private static void Reuses()
+        {
+            var settings = Ball.Small(AgingOutputs.View);
+            var counter = new Counter();
+            using (var engine = Ball.Engine())
+            using (var graph = AgingSim.CreateGraph(engine, settings))
+            using (var mesh = Ball.Mesh().ToMesh())
+            {
+                engine.Register(new ManagedPlugin("tests", "1.0.0", "MIT", counter));
+                graph.SetInput("head", mesh);
+                // In place of the wrinkle map, and behind a region.
+                graph.Connect(graph.Add("tests.counter"), graph.Find("height").Value);
+                var region = graph.Add("tests.counter");
+                graph.Connect(graph.Find("outer hair").Value, region);
+                graph.Connect(region, graph.Find("loss age").Value);
+                var view = graph.Find("view").Value;
+                graph.Compute(view).Dispose();
+                var rows = counter.Rows;
+                Assert.True(rows >= 2 * settings.Size, "both were computed, " + rows);
+                for (var age = 0; age <= 4; age++)
+                {
+                    AgingSim.SetAge(graph, age / 4.0);
+                    graph.Compute(view).Dispose();
+                }
+                Assert.Equal(rows, counter.Rows);
+            }
+        }
+
         private static void NeedsHead()
         {
             using (var engine = Ball.Engine())
@@ -102,6 +133,40 @@ namespace PtLib.Aging.Tests
                 var error = Assert.Fails(
                     Status.Unconnected, () => graph.Compute(graph.Find("view").Value));
                 Assert.Contains("head", error.Message);
+            }
+        }
+
+        /// <summary>Passes an image on, or makes one, and counts its rows.</summary>
+        private sealed class Counter : RowBlock<string>
+        {
+            private readonly int image;
+            private int rows;
+
+            internal Counter()
+                : base("tests.counter", "Counts rows.")
+            {
+                image = AddInput("image", true);
+            }
+
+            internal int Rows
+            {
+                get { return Volatile.Read(ref rows); }
+            }
+
+            protected override string Prepare(BlockSetup setup)
+            {
+                return string.Empty;
+            }
+
+            protected override void Row(string state, BlockCall call, int row)
+            {
+                Interlocked.Increment(ref rows);
+                var source = call.Input(image);
+                var target = call.Output.Row(0, row);
+                for (var i = 0; i < target.Length; i++)
+                {
+                    target[i] = source.IsPresent ? source.Row(0, row)[i] : 0.5f;
+                }
             }
         }
     }

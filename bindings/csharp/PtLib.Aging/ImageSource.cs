@@ -74,8 +74,8 @@ namespace PtLib.Aging
             return FromPixels(pixels, side, side);
         }
 
-        /// <summary>A picture file. It is read when it is needed, and graphs that use it may read
-        /// files in its folder.</summary>
+        /// <summary>A picture file. It is read when it is needed. A graph that uses files may read
+        /// below the deepest folder that all of them are in.</summary>
         /// <param name="path">Its path.</param>
         /// <returns>The picture.</returns>
         public static ImageSource FromFile(string path)
