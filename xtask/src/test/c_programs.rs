@@ -239,7 +239,8 @@ pub(super) fn valgrind(_: bool) -> Result {
         "--errors-for-leak-kinds=definite,possible",
         "--quiet",
     ];
-    let mut under = vec![valgrind.into_os_string()];
+    let known = repository::root().join("tests/abi/leaks.supp");
+    let mut under = vec![valgrind.into_os_string(), joined("--suppressions=", &known)];
     under.extend(arguments.map(OsString::from));
     let link = [
         joined("-I", &tree().join("include")),
@@ -264,7 +265,14 @@ pub(super) fn sanitizer(_: bool) -> Result {
         tree().join("lib/libptlib.a").into_os_string(),
     ];
     link.extend(native_libraries()?);
-    let under = [OsString::from("env"), OsString::from("ASAN_OPTIONS=detect_leaks=1")];
+    // As in `tests/abi/leaks.supp`, in the words of the address sanitizer.
+    let known = folder.join("leaks.txt");
+    fs::write(&known, "leak:abi_stable\n")?;
+    let under = [
+        OsString::from("env"),
+        OsString::from("ASAN_OPTIONS=detect_leaks=1"),
+        joined("LSAN_OPTIONS=print_suppressions=0:suppressions=", &known),
+    ];
     for program in Program::all()? {
         execute(&program.build(&folder, &link)?, None, &under)?;
     }
