@@ -11,7 +11,11 @@ namespace PtLib
     /// </summary>
     public sealed class PtLibException : Exception
     {
-        internal PtLibException(Status status, string message, string parameter)
+        /// <summary>Makes an error, for libraries that check what is given to this one.</summary>
+        /// <param name="status">What went wrong.</param>
+        /// <param name="message">Place, fact, what is allowed, and perhaps a hint.</param>
+        /// <param name="parameter">The name of the argument, or empty.</param>
+        public PtLibException(Status status, string message, string parameter)
             : this(status, message, 0, parameter, new Fault[0], null)
         {
         }

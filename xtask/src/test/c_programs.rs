@@ -2,7 +2,8 @@
 //! run.
 //!
 //! The programs are the examples and those of `tests/abi/dist`. Each is one file that runs without
-//! arguments, in an empty folder that it may write to, and ends with 0.
+//! arguments, in an empty folder that it may write to, and ends with 0. The plug-in for ageing heads
+//! is there for those that use it.
 
 use std::{
     ffi::OsString,
@@ -11,6 +12,7 @@ use std::{
     process::Command,
 };
 
+use super::aging_plugin;
 use crate::{
     Result,
     dist::{self, Names, Platform},
@@ -74,6 +76,7 @@ fn execute(program: &Path, library: Option<&Path>, under: &[OsString]) -> Result
     let mut command = Command::new(words.next().unwrap_or_default());
     command.args(words).current_dir(folder);
     command.env("PTLIB_EXAMPLES", repository::root().join("examples"));
+    command.env(aging_plugin::VARIABLE, program.with_file_name(aging_plugin::file_name()));
     if let Some(library) = library {
         command.env(LIBRARY_PATH, library);
     }
@@ -82,10 +85,11 @@ fn execute(program: &Path, library: Option<&Path>, under: &[OsString]) -> Result
     Ok(())
 }
 
-/// An empty folder for the programs of a step.
+/// A folder for the programs of a step, empty but for the plug-in that some load.
 fn folder(step: &str) -> Result<PathBuf> {
     let folder = repository::target().join("c-programs").join(step);
     empty_folder(&folder)?;
+    aging_plugin::build(&folder)?;
     Ok(folder)
 }
 
@@ -235,7 +239,8 @@ pub(super) fn valgrind(_: bool) -> Result {
         "--errors-for-leak-kinds=definite,possible",
         "--quiet",
     ];
-    let mut under = vec![valgrind.into_os_string()];
+    let known = repository::root().join("tests/abi/leaks.supp");
+    let mut under = vec![valgrind.into_os_string(), joined("--suppressions=", &known)];
     under.extend(arguments.map(OsString::from));
     let link = [
         joined("-I", &tree().join("include")),
@@ -260,7 +265,14 @@ pub(super) fn sanitizer(_: bool) -> Result {
         tree().join("lib/libptlib.a").into_os_string(),
     ];
     link.extend(native_libraries()?);
-    let under = [OsString::from("env"), OsString::from("ASAN_OPTIONS=detect_leaks=1")];
+    // As in `tests/abi/leaks.supp`, in the words of the address sanitizer.
+    let known = folder.join("leaks.txt");
+    fs::write(&known, "leak:abi_stable\n")?;
+    let under = [
+        OsString::from("env"),
+        OsString::from("ASAN_OPTIONS=detect_leaks=1"),
+        joined("LSAN_OPTIONS=print_suppressions=0:suppressions=", &known),
+    ];
     for program in Program::all()? {
         execute(&program.build(&folder, &link)?, None, &under)?;
     }

@@ -13,6 +13,7 @@ use std::{
     process::Command,
 };
 
+use super::aging_plugin;
 use crate::{
     Result, dist,
     process::{self, empty_folder, tool},
@@ -25,11 +26,30 @@ const TOOLS: &str = "PTLIB_DOTNET8_TOOLS";
 /// If it is set, the half for .NET 8 is left out.
 const WITHOUT: &str = "PTLIB_TEST_WITHOUT_DOTNET8";
 
-/// Assemblies of the binding, the first is the library; the others are programs that use it.
+/// Assemblies of the binding: two libraries, the second uses the first; the others are programs
+/// that use both.
 const LIBRARY: &str = "PtLib";
+const AGING: &str = "PtLib.Aging";
+const LIBRARIES: [&str; 2] = [LIBRARY, AGING];
 const TESTS: &str = "PtLib.Tests";
+const AGING_TESTS: &str = "PtLib.Aging.Tests";
 const RENDER_FILE: &str = "RenderFile";
-const SAMPLES: [&str; 3] = [RENDER_FILE, "TextureClient", "ManagedBlock"];
+const SAMPLES: [&str; 4] = [RENDER_FILE, "TextureClient", "ManagedBlock", "AgingClient"];
+
+/// Files that a project takes from another one.
+const SHARED: [(&str, &str); 3] = [
+    (AGING, "PtLib/Native/NullableAttributes.cs"),
+    (AGING_TESTS, "PtLib.Tests/Assert.cs"),
+    (AGING_TESTS, "PtLib.Tests/Runner.cs"),
+];
+
+/// Native libraries that programs need besides the one they test.
+struct Others {
+    /// One that says to have another version.
+    library: PathBuf,
+    /// The plug-in for ageing heads.
+    aging: PathBuf,
+}
 
 /// A .NET that is here.
 enum DotNet {
@@ -42,7 +62,7 @@ enum DotNet {
 pub(super) fn csharp(_: bool) -> Result {
     let folder = repository::target().join("csharp");
     empty_folder(&folder)?;
-    let other = other_library(&folder)?;
+    let others = Others { library: other_library(&folder)?, aging: aging_plugin::build(&folder)? };
     let mut missing = None;
     let is_wanted = env::var_os(WITHOUT).is_none();
     let halves = [Some(mono()), is_wanted.then(dotnet8)];
@@ -50,7 +70,7 @@ pub(super) fn csharp(_: bool) -> Result {
         match found {
             Ok(all) => {
                 for dotnet in all {
-                    dotnet.check(&folder, &other)?;
+                    dotnet.check(&folder, &others)?;
                 }
             }
             Err(error) => missing = Some(error),
@@ -95,9 +115,10 @@ fn project(name: &str) -> PathBuf {
     if samples.is_dir() { samples } else { bindings().join(name) }
 }
 
-/// The C# files of a project, in its folder and those below.
+/// The C# files of a project: in its folder and those below, and those of other projects.
 fn sources(name: &str) -> Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
+    let shared = SHARED.iter().filter(|(project, _)| *project == name);
+    let mut files: Vec<_> = shared.map(|(_, file)| bindings().join(file)).collect();
     let mut folders = vec![project(name)];
     while let Some(folder) = folders.pop() {
         files.extend(repository::files_in(&folder, "cs")?);
@@ -123,22 +144,18 @@ impl DotNet {
     }
 
     /// Compiles everything, runs the tests and the samples.
-    fn check(&self, folder: &Path, other: &Path) -> Result {
+    fn check(&self, folder: &Path, others: &Others) -> Result {
         let folder = folder.join(self.name());
         fs::create_dir_all(&folder)?;
-        self.compile(LIBRARY, &folder)?;
-        self.compile(TESTS, &folder)?;
-        let mut tests = self.program(TESTS, &folder);
-        tests.env("PTLIB_TEST_OTHER_ABI", other);
-        let printed = process::output(&mut tests)?;
-        let last = printed.lines().last().unwrap_or_default();
-        if !last.ends_with(" passed, 0 failed") {
-            return Err(format!("{}: the tests end with \"{last}\"", self.name()).into());
+        for library in LIBRARIES {
+            self.compile(library, &folder)?;
         }
-        println!("  {}: {last}", self.name());
+        for tests in [TESTS, AGING_TESTS] {
+            self.test(tests, &folder, others)?;
+        }
         for sample in SAMPLES {
             self.compile(sample, &folder)?;
-            let mut program = self.program(sample, &folder);
+            let mut program = self.program(sample, &folder, others);
             if sample == RENDER_FILE {
                 let graph = repository::root().join("examples/graphs/bark.xml");
                 program.arg(graph).args(["bark.png", "64"]);
@@ -152,15 +169,27 @@ impl DotNet {
         Ok(())
     }
 
+    /// Runs a program of tests, which counts them in its last line.
+    fn test(&self, tests: &str, folder: &Path, others: &Others) -> Result {
+        self.compile(tests, folder)?;
+        let printed = process::output(&mut self.program(tests, folder, others))?;
+        let last = printed.lines().last().unwrap_or_default();
+        if !last.ends_with(" passed, 0 failed") {
+            return Err(format!("{}: {tests} ends with \"{last}\"", self.name()).into());
+        }
+        println!("  {}: {tests}: {last}", self.name());
+        Ok(())
+    }
+
     /// Compiles a project; warnings are errors, and every public member has its comment.
     fn compile(&self, name: &str, folder: &Path) -> Result {
-        let is_library = name == LIBRARY;
+        let is_library = LIBRARIES.contains(&name);
         let mut command = match self {
             Self::Mono { compiler, .. } => {
                 let mut command = Command::new(compiler);
                 command.args(["-langversion:latest", "-warnaserror"]);
                 if is_library {
-                    command.arg(joined("-doc:", &folder.join("PtLib.xml")));
+                    command.arg(joined("-doc:", &folder.join(format!("{name}.xml"))));
                 }
                 command
             }
@@ -178,20 +207,21 @@ impl DotNet {
         command.arg("-unsafe").arg(joined("-out:", &self.assembly(name, folder)));
         if is_library {
             command.arg("-target:library");
-        } else {
-            command.arg(joined("-r:", &self.assembly(LIBRARY, folder)));
+        }
+        for library in LIBRARIES.iter().take_while(|library| **library != name) {
+            command.arg(joined("-r:", &self.assembly(library, folder)));
         }
         process::output(command.args(sources(name)?))?;
         Ok(())
     }
 
     fn assembly(&self, name: &str, folder: &Path) -> PathBuf {
-        let is_program = name != LIBRARY && matches!(self, Self::Mono { .. });
+        let is_program = !LIBRARIES.contains(&name) && matches!(self, Self::Mono { .. });
         folder.join(format!("{name}.{}", if is_program { "exe" } else { "dll" }))
     }
 
     /// A program of the binding, with the library of the tree that the step `dist` made.
-    fn program(&self, name: &str, folder: &Path) -> Command {
+    fn program(&self, name: &str, folder: &Path, others: &Others) -> Command {
         let tree = dist::Options::default().out;
         let mut command = match self {
             Self::Mono { runtime, .. } => Command::new(runtime),
@@ -208,7 +238,9 @@ impl DotNet {
         }
         command.env("PTLIB_NATIVE_PATH", tree.join("lib"));
         command.env("PTLIB_TEST_PTC", tree.join("bin").join("ptc"));
+        command.env("PTLIB_TEST_OTHER_ABI", &others.library);
         command.env("PTLIB_REPOSITORY", repository::root());
+        command.env(aging_plugin::VARIABLE, &others.aging);
         command
     }
 }

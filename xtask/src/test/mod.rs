@@ -5,6 +5,7 @@
 //! the summary says how to install it; with `--strict` that is a failure. Tests that need a tool
 //! follow the same rule by the environment variable `PTLIB_TEST_STRICT`.
 
+mod aging_plugin;
 mod c_programs;
 mod csharp;
 mod steps;
