@@ -56,3 +56,5 @@ export_plugin! {
 
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod tests;

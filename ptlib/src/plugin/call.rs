@@ -121,6 +121,11 @@ impl<'a> Call<'a> {
         if status == PTLP_OK { Ok(()) } else { Err(self.error(what, status)) }
     }
 
+    /// Notes that somebody asked whether to stop.
+    pub(super) fn note_asked(&self) {
+        self.has_asked.store(true, Ordering::Relaxed);
+    }
+
     /// Reports a function that went on for long though nobody looks at the result any more, and
     /// never asked about that: whoever cancels waits for it.
     fn report_deaf(&self, what: &str, started: Instant) {
@@ -267,7 +272,7 @@ unsafe extern "C" fn is_cancelled(job: *const ptlp_job) -> i32 {
     // SAFETY: the contract.
     let call = unsafe { call_of(job) };
     let is_cancelled = |call: &Call<'_>| {
-        call.has_asked.store(true, Ordering::Relaxed);
+        call.note_asked();
         call.means.progress.check().is_err()
     };
     guarded(1, || i32::from(call.is_none_or(is_cancelled)))

@@ -215,6 +215,10 @@ unsafe extern "C" fn parallel_run(
             }
         };
         let done = call.means.progress.parallel(tasks as usize, &run);
+        if tasks > 1 {
+            // Between tasks the host asks in the plug-in's place.
+            call.note_asked();
+        }
         let failed = failed.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
         match (failed, done) {
             (Some((_, status)), _) => status,
