@@ -503,8 +503,8 @@ typedef struct ptlp_math {
  *  ..._begin takes counts and streams (type, components, flags, id; stride 0) in its struct, and
  *  gives the same struct with memory of the host in it: zeroed, 64-byte aligned, to be written until
  *  finish.
- *  A stream whose data is not NULL must be one of an input of this call, with the same count: it is
- *  shared, not copied. So are indices and first_point. */
+ *  A stream whose data is not NULL must be one of an input of this call: its first elements, as many
+ *  as are needed, are shared, not copied. So are indices and first_point, which must be whole. */
 typedef struct ptlp_values {
     uint32_t struct_size;
     uint32_t reserved0;

@@ -536,14 +536,14 @@ fn options(
     ComputeOptions { size: Some(size), precision, threads, ..Default::default() }
 }
 
-/// The samples of an image, or the characters of anything else that it shows.
+/// The samples of an image, or the hash of anything else.
 fn bits(value: &Value) -> Vec<u32> {
     match value {
         Value::Image(image) => {
             let samples = (0..image.planes()).flat_map(|channel| image.channel(channel));
             samples.map(|sample| sample.to_bits()).collect()
         }
-        other => format!("{other:?}").chars().map(u32::from).collect(),
+        other => other.content().as_bytes().iter().copied().map(u32::from).collect(),
     }
 }
 

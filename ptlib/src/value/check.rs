@@ -56,6 +56,10 @@ pub(super) fn count(what: &str, count: u64, limit: u32) -> Result<(), Error> {
 
 /// Whether every index is below `limit`.
 pub(super) fn indices(indices: &Words, limit: u32) -> Result<(), Error> {
+    // The largest is found many at a time; who it is, only if it is too large.
+    if indices.iter().copied().max().is_none_or(|largest| largest < limit) {
+        return Ok(());
+    }
     let offenders = indices.iter().copied().enumerate().filter(|(_, index)| *index >= limit);
     let noun = ("index", "indices");
     refuse("the indices", noun, indices.len(), &format!("below {limit}"), offenders)
@@ -93,10 +97,21 @@ pub(super) fn bounds(streams: &[Stream], elements: u32) -> Result<Bounds, Error>
         return Ok(Bounds::default());
     }
     let mut bounds = Bounds { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
-    for position in positions.floats().all() {
-        for (axis, number) in position.iter().enumerate() {
-            bounds.min[axis] = bounds.min[axis].min(*number);
-            bounds.max[axis] = bounds.max[axis].max(*number);
+    let include = |position: &[f32; 3]| {
+        let Bounds { min, max } = &mut bounds;
+        for ((min, max), number) in min.iter_mut().zip(max).zip(position) {
+            *min = min.min(*number);
+            *max = max.max(*number);
+        }
+    };
+    match positions.without_gaps() {
+        Some(numbers) => numbers.as_chunks().0.iter().for_each(include),
+        None => {
+            positions
+                .floats()
+                .all()
+                .filter_map(|position| position.first_chunk())
+                .for_each(include);
         }
     }
     Ok(bounds)
@@ -108,15 +123,20 @@ pub(super) fn numbers(
     streams: &mut [Stream],
     recompute: Option<&Recompute<'_>>,
 ) -> Result<(), Error> {
-    for stream in streams.iter().filter(|stream| stream.shape().scalar == Scalar::F32) {
+    let is_new = |stream: &&Stream| !stream.is_checked();
+    for stream in streams.iter().filter(is_new) {
+        if stream.shape().scalar != Scalar::F32 {
+            continue;
+        }
         let allowed = format!("finite numbers from -{LARGEST:e} to {LARGEST:e}");
-        numbers_where(stream, &allowed, |number| !number.is_finite() || number.abs() > LARGEST)?;
+        // Not a number is not within either.
+        numbers_within(stream, &allowed, |number| number.abs() <= LARGEST)?;
         if matches!(stream.id(), "loss age" | "color" | "random") {
-            numbers_where(stream, "0 to 1", |number| !(0.0..=1.0).contains(&number))?;
+            numbers_within(stream, "0 to 1", |number| (0.0..=1.0).contains(&number))?;
         }
     }
     let positions = streams.iter().find(|stream| stream.id() == "position").cloned();
-    for stream in streams {
+    for stream in streams.iter_mut().filter(|stream| !stream.is_checked()) {
         match stream.id() {
             "normal" => {
                 let recompute = recompute.zip(positions.as_ref());
@@ -126,18 +146,24 @@ pub(super) fn numbers(
             "tangent" => make_signs(stream)?,
             _ => {}
         }
+        stream.note_checked();
     }
     Ok(())
 }
 
-/// Refuses the elements of which a number is an offender.
-fn numbers_where(
+/// Refuses the elements of which a number is not allowed.
+fn numbers_within(
     stream: &Stream,
     allowed: &str,
-    is_offender: impl Fn(f32) -> bool,
+    is_allowed: impl Fn(f32) -> bool,
 ) -> Result<(), Error> {
+    // Without an end before the last one, so that many are looked at at a time.
+    let all = |numbers: &[f32]| numbers.iter().fold(true, |all, number| all & is_allowed(*number));
+    if stream.without_gaps().is_some_and(all) {
+        return Ok(());
+    }
     let offenders = stream.floats().all().enumerate().filter_map(|(i, element)| {
-        element.iter().find(|number| is_offender(**number)).map(|number| (i, *number))
+        element.iter().find(|number| !is_allowed(**number)).map(|number| (i, *number))
     });
     refuse(&subject(stream), ELEMENTS, stream.elements(), allowed, offenders)
 }
@@ -156,6 +182,9 @@ fn make_unit(
     stream: &mut Stream,
     others: impl FnOnce() -> Option<Vec<[f64; 3]>>,
 ) -> Result<(), Error> {
+    if stream.without_gaps().is_some_and(are_units) {
+        return Ok(());
+    }
     let mut is_changed = false;
     let mut too_short = 0_usize;
     for element in stream.floats().all() {
@@ -183,6 +212,15 @@ fn make_unit(
         vector.copy_from_slice(&unit.map(single));
     })?;
     Ok(())
+}
+
+/// Whether vectors of three numbers have length 1: their squares tell that faster. A few that do may
+/// be taken for some that do not.
+fn are_units(numbers: &[f32]) -> bool {
+    numbers.as_chunks().0.iter().fold(true, |all, vector: &[f32; 3]| {
+        let [x, y, z] = vector.map(f64::from);
+        all & ((x * x + y * y + z * z - 1.0).abs() <= UNIT)
+    })
 }
 
 /// The vector of length 1 in that direction; `None` if it has none.

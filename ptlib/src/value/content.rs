@@ -40,7 +40,17 @@ impl Content {
 
     pub(super) fn words(&mut self, words: &[u32]) {
         self.number(words.len() as u64);
-        self.raw(words.iter().copied());
+        self.whole(words);
+    }
+
+    /// Takes the hash of words that lie without gaps in their place.
+    fn whole(&mut self, words: &[u32]) {
+        if cfg!(target_endian = "little") {
+            let hash = blake3::hash(bytemuck::cast_slice(words));
+            self.0.update(hash.as_bytes());
+        } else {
+            self.raw(words.iter().copied());
+        }
     }
 
     pub(super) fn streams(&mut self, streams: &[Stream]) {
@@ -52,7 +62,10 @@ impl Content {
             self.number(u64::from(shape.components));
             self.number(u64::from(shape.is_constant));
             self.number(stream.elements() as u64);
-            self.raw(stream.words().all().flatten().copied());
+            match stream.without_gaps() {
+                Some(numbers) => self.whole(bytemuck::cast_slice(numbers)),
+                None => self.raw(stream.words().all().flatten().copied()),
+            }
         }
     }
 
@@ -79,8 +92,7 @@ impl Content {
 }
 
 impl Value {
-    /// The hash of the content. Of a mesh, points or strands it was taken when they were made; of
-    /// the others it is taken now.
+    /// The hash of the content. It is taken now; that of a mesh, points or strands is kept with them.
     #[must_use]
     pub fn content(&self) -> ContentHash {
         match self {

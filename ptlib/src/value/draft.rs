@@ -19,7 +19,7 @@ use crate::{
 pub enum StreamPlan {
     /// New memory, zeros at first.
     New(StreamShape),
-    /// A stream of another value, shared.
+    /// A stream of another value, shared: as many of its first elements as are needed.
     Shared(Stream),
 }
 
@@ -198,7 +198,7 @@ fn parts(count: u32, streams: Vec<StreamPlan>) -> Result<Vec<Part<Stream>>, Erro
         StreamPlan::New(shape) => {
             Ok(Part::New(WordsMut::zeroed(shape.packed_words(count))?, Some(shape)))
         }
-        StreamPlan::Shared(stream) => Ok(Part::Shared(stream)),
+        StreamPlan::Shared(stream) => Ok(Part::Shared(stream.beginning(count))),
     };
     streams.into_iter().map(part).collect()
 }
@@ -255,6 +255,29 @@ mod tests {
         assert_eq!(more.streams()[0].data().as_ptr(), position.data().as_ptr());
         let wrong = Draft::points(3, plan, &limits()).unwrap().finish(&limits()).unwrap_err();
         assert!(wrong.message().contains("2 elements, 3 are needed"), "{wrong}");
+    }
+
+    #[test]
+    fn the_beginning_of_a_stream_is_shared_too() {
+        let plan = vec![StreamPlan::New(StreamShape::floats("position", 3))];
+        let mut draft = Draft::points(3, plan, &limits()).unwrap();
+        draft.stream_mut(0).unwrap().copy_from_slice(&[1, 2, 3, 4, 5, 6, 7, 8, 9].map(|n| {
+            let number: u16 = n;
+            f32::from(number).to_bits()
+        }));
+        let Value::Points(points) = draft.finish(&limits()).unwrap() else { panic!("points") };
+        let plan = vec![StreamPlan::Shared(points.streams()[0].clone())];
+        let draft = Draft::points(2, plan, &limits()).unwrap();
+        let Value::Points(fewer) = draft.finish(&limits()).unwrap() else { panic!("points") };
+        assert_eq!(fewer.streams()[0].data().as_ptr(), points.streams()[0].data().as_ptr());
+        assert_eq!((fewer.count(), fewer.bounds().max), (2, [4.0, 5.0, 6.0]));
+        assert_ne!(fewer.content(), points.content());
+        let copied = Stream::packed(
+            StreamShape::floats("position", 3),
+            Words::copy_of(&points.streams()[0].data()[..6]).unwrap(),
+        );
+        let copied = Points::new(2, vec![copied.unwrap()], &limits()).unwrap();
+        assert_eq!(fewer.content(), copied.content());
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Triangles.
 
+use std::sync::OnceLock;
+
 use super::{
     Bounds, ContentHash, Stream, Words,
     check::{self, unit_of},
@@ -21,7 +23,8 @@ pub struct Mesh {
     indices: Words,
     streams: Vec<Stream>,
     bounds: Bounds,
-    content: ContentHash,
+    /// Taken when somebody asks: most values are never compared.
+    content: OnceLock<ContentHash>,
 }
 
 impl Mesh {
@@ -43,11 +46,7 @@ impl Mesh {
         let recompute = |positions: &Stream| area_normals(positions, &indices, vertex_count);
         check::numbers(&mut streams, Some(&recompute))?;
         let bounds = check::bounds(&streams, vertex_count)?;
-        let mut content = Content::new("mesh");
-        content.number(u64::from(vertex_count));
-        content.words(&indices);
-        content.streams(&streams);
-        Ok(Self { vertex_count, indices, streams, bounds, content: content.finish() })
+        Ok(Self { vertex_count, indices, streams, bounds, content: OnceLock::new() })
     }
 
     /// Whether a mesh may be of that size.
@@ -100,10 +99,16 @@ impl Mesh {
         self.bounds
     }
 
-    /// The hash of the content.
+    /// The hash of the content. The first call takes it, which needs a look at everything.
     #[must_use]
     pub fn content(&self) -> &ContentHash {
-        &self.content
+        self.content.get_or_init(|| {
+            let mut content = Content::new("mesh");
+            content.number(u64::from(self.vertex_count));
+            content.words(&self.indices);
+            content.streams(&self.streams);
+            content.finish()
+        })
     }
 
     /// All memory of the mesh.

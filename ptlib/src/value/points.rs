@@ -1,5 +1,7 @@
 //! Points.
 
+use std::sync::OnceLock;
+
 use super::{Bounds, ContentHash, Stream, Words, check, content::Content};
 use crate::{error::Error, limits::Limits};
 
@@ -12,7 +14,8 @@ pub struct Points {
     count: u32,
     streams: Vec<Stream>,
     bounds: Bounds,
-    content: ContentHash,
+    /// Taken when somebody asks: most values are never compared.
+    content: OnceLock<ContentHash>,
 }
 
 impl Points {
@@ -26,10 +29,7 @@ impl Points {
         check::list(&streams, count)?;
         check::numbers(&mut streams, None)?;
         let bounds = check::bounds(&streams, count)?;
-        let mut content = Content::new("points");
-        content.number(u64::from(count));
-        content.streams(&streams);
-        Ok(Self { count, streams, bounds, content: content.finish() })
+        Ok(Self { count, streams, bounds, content: OnceLock::new() })
     }
 
     /// Whether there may be so many.
@@ -65,10 +65,15 @@ impl Points {
         self.bounds
     }
 
-    /// The hash of the content.
+    /// The hash of the content. The first call takes it, which needs a look at everything.
     #[must_use]
     pub fn content(&self) -> &ContentHash {
-        &self.content
+        self.content.get_or_init(|| {
+            let mut content = Content::new("points");
+            content.number(u64::from(self.count));
+            content.streams(&self.streams);
+            content.finish()
+        })
     }
 
     /// All memory of the points.

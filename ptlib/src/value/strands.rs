@@ -1,5 +1,7 @@
 //! Strands: polylines.
 
+use std::sync::OnceLock;
+
 use super::{Bounds, ContentHash, Stream, Words, check, content::Content};
 use crate::{
     error::{Error, ErrorKind},
@@ -18,7 +20,8 @@ pub struct Strands {
     point_streams: Vec<Stream>,
     strand_streams: Vec<Stream>,
     bounds: Bounds,
-    content: ContentHash,
+    /// Taken when somebody asks: most values are never compared.
+    content: OnceLock<ContentHash>,
 }
 
 /// What strands are made from.
@@ -55,12 +58,7 @@ impl Strands {
         check::numbers(&mut point_streams, None)?;
         check::numbers(&mut strand_streams, None)?;
         let bounds = check::bounds(&point_streams, point_count)?;
-        let mut content = Content::new("strands");
-        content.number(u64::from(point_count));
-        content.words(&first_point);
-        content.streams(&point_streams);
-        content.streams(&strand_streams);
-        let content = content.finish();
+        let content = OnceLock::new();
         Ok(Self { point_count, first_point, point_streams, strand_streams, bounds, content })
     }
 
@@ -115,10 +113,17 @@ impl Strands {
         self.bounds
     }
 
-    /// The hash of the content.
+    /// The hash of the content. The first call takes it, which needs a look at everything.
     #[must_use]
     pub fn content(&self) -> &ContentHash {
-        &self.content
+        self.content.get_or_init(|| {
+            let mut content = Content::new("strands");
+            content.number(u64::from(self.point_count));
+            content.words(&self.first_point);
+            content.streams(&self.point_streams);
+            content.streams(&self.strand_streams);
+            content.finish()
+        })
     }
 
     /// All memory of the strands.

@@ -129,6 +129,8 @@ pub struct Stream {
     /// Words from one element to the next.
     stride: usize,
     elements: usize,
+    /// Whether its numbers keep the rules of its id, which hold for every kind of value.
+    is_checked: bool,
 }
 
 /// The numbers of a stream.
@@ -182,7 +184,7 @@ impl Stream {
                 needed.map_or("more than memory has".into(), |needed| needed.to_string())
             )));
         }
-        Ok(Self { shape, data, stride, elements })
+        Ok(Self { shape, data, stride, elements, is_checked: false })
     }
 
     /// A stream of elements without gaps.
@@ -226,6 +228,29 @@ impl Stream {
     #[must_use]
     pub fn data(&self) -> &Words {
         &self.data
+    }
+
+    /// Its elements for the first `count` of those that a value has.
+    pub(super) fn beginning(self, count: u32) -> Self {
+        let elements = self.elements.min(self.shape.elements(count));
+        Self { elements, ..self }
+    }
+
+    /// Whether its numbers were checked: streams are shared, and never change.
+    pub(super) fn is_checked(&self) -> bool {
+        self.is_checked
+    }
+
+    /// Notes that its numbers keep the rules.
+    pub(super) fn note_checked(&mut self) {
+        self.is_checked = true;
+    }
+
+    /// All numbers in one slice, if they lie without gaps.
+    pub(super) fn without_gaps(&self) -> Option<&[f32]> {
+        let components = self.shape.components as usize;
+        (self.stride == components || self.elements <= 1)
+            .then(|| &self.data.floats()[..self.elements * components])
     }
 
     /// The numbers as floating-point numbers, which they are if the shape says so.

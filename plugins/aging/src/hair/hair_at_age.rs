@@ -1,7 +1,7 @@
 //! The hairs that are left at an age.
 //!
-//! What `scatter hair` gives is sorted, so that they are the first so many: copied piece by piece,
-//! or the input itself if it is all of them. Points in another order are filtered, in their order.
+//! What `scatter hair` gives is sorted, so that they are the first so many, and nothing is copied: the
+//! output shares the beginning of each stream. Points in another order are filtered, in their order.
 
 use std::ffi::CStr;
 
@@ -14,7 +14,7 @@ use ptlib_plugin::{
 /// Points of one task while they are counted.
 const POINTS_OF_A_TASK: usize = 16384;
 
-/// Streams that are copied as slices; others are copied element by element.
+/// Streams whose elements have a type that is known; others are copied as bits.
 const SLICES: [&CStr; 6] = [c"position", c"direction", c"texcoord", c"loss age", c"random", c"id"];
 
 params! {
@@ -60,9 +60,15 @@ impl Block for HairAtAge {
         if count == ages.len() {
             return call.pass(0, 0);
         }
-        let is_prefix = (0..count).all(|point| ages.get(point) >= self.age);
-        let places = if is_prefix { None } else { Some(self.places(ages, count, work)?) };
-        copy(call, points, count, places.as_deref())
+        let is_prefix = match ages.as_slice() {
+            Some(ages) => ages[..count].iter().all(|loss| *loss >= self.age),
+            None => (0..count).all(|point| ages.get(point) >= self.age),
+        };
+        if is_prefix {
+            // The first so many of each stream, shared.
+            return call.new_points(0, count, points.streams())?.finish();
+        }
+        copy(call, points, &self.places(ages, count, work)?)
     }
 }
 
@@ -110,37 +116,15 @@ fn own<'a, T: Element>(
     (stream.map(|_| id), stream)
 }
 
-/// Which elements a piece of the output takes.
-#[derive(Clone, Copy)]
-enum From<'p> {
-    /// Those from a place on.
-    Place(usize),
-    /// Those at these places.
-    Places(&'p [u32]),
-}
-
-fn take<T: Element>(out: Option<&mut [T]>, stream: Option<Stream<'_, T>>, from: From<'_>) {
-    let (Some(out), Some(stream)) = (out, stream) else { return };
-    match (from, stream.as_slice()) {
-        (From::Place(first), Some(elements)) => {
-            out.copy_from_slice(&elements[first..][..out.len()]);
-        }
-        (From::Place(first), None) => {
-            out.iter_mut().enumerate().for_each(|(i, out)| *out = stream.get(first + i));
-        }
-        (From::Places(places), _) => {
-            out.iter_mut().zip(places).for_each(|(out, i)| *out = stream.get(*i as usize));
-        }
+/// Takes the elements at places.
+fn take<T: Element>(out: Option<&mut [T]>, stream: Option<Stream<'_, T>>, places: &[u32]) {
+    if let (Some(out), Some(stream)) = (out, stream) {
+        out.iter_mut().zip(places).for_each(|(out, i)| *out = stream.get(*i as usize));
     }
 }
 
-/// Gives `count` of the points: the first, or those at places.
-fn copy(
-    call: &Call<'_>,
-    points: Points<'_>,
-    count: usize,
-    places: Option<&[u32]>,
-) -> Result<(), BlockError> {
+/// Gives the points at places.
+fn copy(call: &Call<'_>, points: Points<'_>, places: &[u32]) -> Result<(), BlockError> {
     let streams = points.streams();
     let (position, positions) = own(streams, POSITION, SLICES[0]);
     let (direction, directions) = own(streams, DIRECTION, SLICES[1]);
@@ -153,19 +137,18 @@ fn copy(
         varying.into_iter().filter(|stream| !SLICES.contains(&stream.id())).collect();
     let like: Vec<_> = others.iter().map(|stream| stream.like()).collect();
     let known = (position, direction, texcoord, loss_age, random, id);
-    let mut left = call.new_points(0, count, (known, like, constant))?;
+    let mut left = call.new_points(0, places.len(), (known, like, constant))?;
     left.fill(|first, ((position, direction, texcoord, loss_age, random, id), like, _)| {
-        let from = places.map_or(From::Place(first), |places| From::Places(&places[first..]));
-        take(position, positions, from);
-        take(direction, directions, from);
-        take(texcoord, texcoords, from);
-        take(loss_age, loss_ages, from);
-        take(random, randoms, from);
-        take(id, ids, from);
+        let places = &places[first..];
+        take(position, positions, places);
+        take(direction, directions, places);
+        take(texcoord, texcoords, places);
+        take(loss_age, loss_ages, places);
+        take(random, randoms, places);
+        take(id, ids, places);
         for (mut out, stream) in like.into_iter().zip(&others) {
-            for i in 0..out.count() {
-                let place = places.map_or(first + i, |places| places[first + i] as usize);
-                out.element(i).copy_from_slice(stream.bits(place));
+            for (i, place) in (0..out.count()).zip(places) {
+                out.element(i).copy_from_slice(stream.bits(*place as usize));
             }
         }
         Ok(())
