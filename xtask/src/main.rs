@@ -3,7 +3,7 @@
 //! One file a task: [`mod@test`] is the one command that checks everything, [`dist`] makes the
 //! installable tree, [`header`] writes the C header, [`tidy`] checks the house rules that no
 //! compiler knows, [`mod@format`] lays the sources out, [`docs`] writes the reference of blocks,
-//! [`guide`] replays CONTRIBUTING.md, [`bench`] compares records of the benchmarks, [`size`] measures
+//! [`guide`] replays CONTRIBUTING.md, [`mod@bench`] compares records of the benchmarks, [`size`] measures
 //! the library. Only the tools that a Rust programmer has anyway are needed; a
 //! missing tool is named together with how to install it.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line program")]

@@ -15,7 +15,7 @@
 //!    what to shade: each pixel once, with weights of the three corners that are right in
 //!    perspective.
 //!
-//! [Lines](line) are drawn over that, from far to near, with [`line::draw`].
+//! [Lines](mod@line) are drawn over that, from far to near, with [`line::draw`].
 //!
 //! No function here calls the mathematics of the platform: angles come as sines and cosines.
 

@@ -2,7 +2,7 @@
 //!
 //! The library reads the description. Its own validation is not used: it panics at some wrong
 //! indices, and refuses attributes of one's own. So whatever is used is looked up and checked here;
-//! what lies in the buffers is read by [`super::accessor`]. All
+//! what lies in the buffers is read by `accessor`. All
 //! primitives of triangles in the default scene become one mesh, each where its node puts it;
 //! points, lines and strips are passed over, and so are materials and pictures. The second texture
 //! coordinate points down in these files, so it becomes 1 minus itself. A primitive without
