@@ -51,7 +51,8 @@ const GROWTH: u64 = 4 << 20;
 pub(crate) enum Check {
     /// It is loaded, quickly, and its tables are what they should be.
     Load,
-    /// Every block computes with its defaults, in both precisions.
+    /// Every block computes with its defaults, in both precisions; those that need a file, or a
+    /// text of a grammar, cannot be tried.
     Defaults,
     /// Every block computes with random and extreme parameters at odd sizes.
     Parameters,
@@ -100,7 +101,7 @@ impl Check {
     pub(crate) fn promise(self) -> &'static str {
         match self {
             Self::Load => "it loads, and its tables are sound",
-            Self::Defaults => "every block computes with its defaults, in both precisions",
+            Self::Defaults => "every block that needs no file computes with its defaults",
             Self::Parameters => "random and extreme parameters do no harm",
             Self::Strips => "the same bits for every cut into strips",
             Self::Threads => "the same bits for 1, 2, 3 and 8 threads",
