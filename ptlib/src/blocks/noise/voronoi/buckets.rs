@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use super::{
     SIDE,
-    cutting::{Candidates, Square, Torus},
+    candidates::Candidates,
+    cutting::{Square, Torus},
     greater,
 };
 use crate::block::prelude::*;
@@ -30,12 +31,10 @@ impl Buckets {
     /// The points of an image of that many tiles.
     pub(super) fn new(points: &Candidates, tiles: [usize; 2], torus: Torus) -> Self {
         let whole = tiles[0].max(tiles[1]).next_power_of_two();
-        let is_inside = |places: &[f32], size| places.iter().all(|at| (0.0..size).contains(at));
         let [width, height] = torus.size;
+        let is_inside = |[x, y]: &[f32; 2]| (0.0..width).contains(x) && (0.0..height).contains(y);
         let mut side = whole;
-        if is_inside(&points.x[..points.count], width)
-            && is_inside(&points.y[..points.count], height)
-        {
+        if points.places[..points.count].iter().all(is_inside) {
             let count = points.count;
             while side > 1 && count * side * side > POINTS_PER_BUCKET * tiles[0] * tiles[1] {
                 side /= 2;
@@ -55,8 +54,8 @@ impl Buckets {
                 .map(|(at, count)| (convert::truncate_to_index(at) / (side * SIDE)).min(count - 1));
             row * count[0] + column
         };
-        let all = points.x.iter().zip(&points.y).take(points.count);
-        let places: Vec<_> = all.map(|(x, y)| bucket(*x, *y)).collect();
+        let all = points.places.iter().take(points.count);
+        let places: Vec<_> = all.map(|[x, y]| bucket(*x, *y)).collect();
         let mut starts = vec![0; count[0] * count[1] + 1];
         for place in &places {
             starts[place + 1] += 1;

@@ -6,9 +6,7 @@
 //! up with places at infinity, so that four points at a time are looked at without a remainder.
 
 use super::{
-    Measure, Point, SIDE, around,
-    cutting::{Candidates, Square},
-    greater, lesser,
+    Measure, Point, SIDE, around, candidates::Candidates, cutting::Square, greater, lesser,
 };
 use crate::block::prelude::*;
 
@@ -16,14 +14,10 @@ use crate::block::prelude::*;
 pub(super) const GROUP: usize = 4;
 
 /// The numbers of the lanes of a register.
-pub(super) const LANES: [f32; SIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+const LANES: [f32; SIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
-/// Points of a list.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Group {
-    x: [f32; GROUP],
-    y: [f32; GROUP],
-}
+/// The places of points of a list, across and down.
+pub(super) type Group = [[f32; 2]; GROUP];
 
 /// Where the list of a tile is.
 #[derive(Debug, Clone, Copy, Default)]
@@ -49,6 +43,8 @@ pub(super) struct Part {
     pub(super) tiles: [usize; 2],
     /// Its own tiles across.
     across: usize,
+    /// Its own tiles down.
+    down: usize,
     /// How many groups its lists may have together.
     room: usize,
     /// For each tile, row by row.
@@ -73,6 +69,7 @@ impl Part {
             square,
             tiles,
             across: side.min(across - square.x),
+            down: side.min(down - square.y),
             room,
             spans: Vec::new(),
             groups: Vec::new(),
@@ -88,8 +85,7 @@ impl Part {
 
     /// Gets ready for [`keep`](Self::keep).
     pub(super) fn start(&mut self) {
-        let down = self.square.side.min(self.tiles[1] - self.square.y);
-        self.spans = vec![Span::default(); self.across * down];
+        self.spans = vec![Span::default(); self.across * self.down];
         // Memory that is never written is never taken from the system.
         self.groups.reserve_exact(self.room);
     }
@@ -106,14 +102,9 @@ impl Part {
         let number = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
         let start = number(self.groups.len());
         let span = Span { start, count: number(own.count), is_straight: own.is_straight };
-        let (x, y) = (own.x.as_chunks::<GROUP>().0, own.y.as_chunks::<GROUP>().0);
-        let groups = x.iter().zip(y).zip((0..own.count).step_by(GROUP));
-        self.groups.extend(groups.map(|((x, y), first)| {
-            let mut group = Group { x: *x, y: *y };
-            let left = GROUP.min(own.count - first);
-            group.x[left..].fill(f32::INFINITY);
-            group
-        }));
+        // The last group has places at infinity after the points.
+        let groups = own.places.as_chunks::<GROUP>().0;
+        self.groups.extend_from_slice(&groups[..own.count.div_ceil(GROUP)]);
         if !points.is_empty() {
             self.shades.extend(own.numbers[..own.count].chunks(GROUP).map(|numbers| {
                 let mut shades = [0.0; GROUP];
@@ -125,8 +116,7 @@ impl Part {
         }
         let (x, y) = (square.x - self.square.x, square.y - self.square.y);
         let right = self.across.min(x + square.side);
-        let down = self.spans.len() / self.across;
-        for y in y..down.min(y + square.side) {
+        for y in y..self.down.min(y + square.side) {
             self.spans[y * self.across..][x..right].fill(span);
         }
     }
@@ -163,11 +153,11 @@ impl List<'_> {
         let (mut first, mut second) = ([f32::INFINITY; SIDE], [f32::INFINITY; SIDE]);
         if self.is_straight {
             for group in self.groups {
-                let down = group.y.map(|y| (at[1] - y).abs());
+                let down = group.map(|[_, y]| (at[1] - y).abs());
                 for lane in 0..SIDE {
                     let x = at[0] + LANES[lane];
                     let [a, b, c, d] =
-                        [0, 1, 2, 3].map(|i: usize| M::compare((x - group.x[i]).abs(), down[i]));
+                        [0, 1, 2, 3].map(|i: usize| M::compare((x - group[i][0]).abs(), down[i]));
                     // By pairs, so that not each comparison waits for the one before.
                     let nearer = [lesser(a, b), lesser(c, d)];
                     let other = lesser(greater(a, b), greater(c, d));
@@ -193,11 +183,11 @@ impl List<'_> {
         let mut nearest = Nearest { compared: [f32::INFINITY; SIDE], shade: [0; SIDE] };
         if self.is_straight {
             for (group, shades) in self.groups.iter().zip(self.shades) {
-                let down = group.y.map(|y| (at[1] - y).abs());
+                let down = group.map(|[_, y]| (at[1] - y).abs());
                 for i in 0..GROUP {
                     let mut compared = [0.0; SIDE];
                     for lane in 0..SIDE {
-                        let across = (at[0] + LANES[lane] - group.x[i]).abs();
+                        let across = (at[0] + LANES[lane] - group[i][0]).abs();
                         compared[lane] = M::compare(across, down[i]);
                     }
                     nearest.add(shades[i], &compared);
@@ -216,10 +206,10 @@ impl List<'_> {
     #[inline(always)]
     fn compared<M: Measure>(&self, i: usize, at: [f32; 2], size: [f32; 2]) -> [f32; SIDE] {
         let (group, i) = (&self.groups[i / GROUP], i % GROUP);
-        let down = around((at[1] - group.y[i]).abs(), size[1]);
+        let down = around((at[1] - group[i][1]).abs(), size[1]);
         let mut compared = [0.0; SIDE];
         for lane in 0..SIDE {
-            let across = around((at[0] + LANES[lane] - group.x[i]).abs(), size[0]);
+            let across = around((at[0] + LANES[lane] - group[i][0]).abs(), size[0]);
             compared[lane] = M::compare(across, down);
         }
         compared
@@ -259,27 +249,10 @@ pub(super) type Two = ([f32; SIDE], [f32; SIDE]);
 
 /// Takes one more number in each lane into account.
 #[inline(always)]
-pub(super) fn add(first: &mut [f32; SIDE], second: &mut [f32; SIDE], numbers: &[f32; SIDE]) {
+fn add(first: &mut [f32; SIDE], second: &mut [f32; SIDE], numbers: &[f32; SIDE]) {
     for lane in 0..SIDE {
         let greater_one = greater(first[lane], numbers[lane]);
         second[lane] = lesser(second[lane], greater_one);
         first[lane] = lesser(first[lane], numbers[lane]);
     }
-}
-
-/// The least two of all lanes.
-#[inline(always)]
-pub(super) fn least_two(mut first: [f32; SIDE], mut second: [f32; SIDE]) -> [f32; 2] {
-    let mut lanes = SIDE;
-    while lanes > 1 {
-        lanes /= 2;
-        for lane in 0..lanes {
-            let other = lane + lanes;
-            let greater_one = greater(first[lane], first[other]);
-            let lesser_second = lesser(second[lane], second[other]);
-            second[lane] = lesser(lesser_second, greater_one);
-            first[lane] = lesser(first[lane], first[other]);
-        }
-    }
-    [first[0], second[0]]
 }

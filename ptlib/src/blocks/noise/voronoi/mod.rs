@@ -5,6 +5,7 @@
 //! [`cutting`] finds out which these are.
 
 mod buckets;
+mod candidates;
 mod cutting;
 mod lists;
 pub(super) mod placement;
@@ -14,7 +15,8 @@ use std::{mem, slice};
 
 use self::{
     buckets::Buckets,
-    cutting::{Candidates, Torus},
+    candidates::Candidates,
+    cutting::Torus,
     lists::{GROUP, Group, List, Part, Span},
 };
 use crate::block::prelude::*;
@@ -149,10 +151,10 @@ impl Cells {
     pub(super) fn bytes_of(points: u64, width: u32, height: u32) -> u64 {
         let tiles = [width, height].map(|size| u64::from(size).div_ceil(SIDE as u64));
         let tiles = tiles[0] * tiles[1];
-        // While they are built, there are on each thread the lists of one square of each size.
+        // While they are built, there are on each thread the lists of four squares of each size.
         let lists = Self::most_groups(points, tiles)
             * (size_of::<Group>() + 2 * size_of::<[f32; GROUP]>()) as u64;
-        let building = lists::PARTS * 8 * points * size_of::<u32>() as u64;
+        let building = lists::PARTS * 16 * points * size_of::<u32>() as u64;
         points * size_of::<Point>() as u64 + lists + building + 12 * tiles
     }
 
