@@ -2,16 +2,11 @@
 
 use std::{fmt, ops::Deref, sync::Arc};
 
+use super::zeros::Zeros;
 use crate::{
     error::{Error, ErrorKind},
     limits::Limits,
 };
-
-/// New words start at multiples of this many bytes: a cache line, and the widest SIMD register.
-const ALIGNMENT: usize = 64;
-
-/// Extra words of an allocation, so that an aligned start is always inside.
-const PADDING: usize = ALIGNMENT / size_of::<u32>() - 1;
 
 /// Words that do not change as long as this lives.
 pub trait Memory: Send + Sync {
@@ -79,7 +74,7 @@ impl fmt::Debug for Words {
 
 /// Words of our own, 64-byte aligned, while they are written.
 pub struct WordsMut {
-    buffer: Box<[u32]>,
+    zeros: Zeros,
     start: usize,
     len: usize,
 }
@@ -90,24 +85,22 @@ impl WordsMut {
     /// # Errors
     /// [`ErrorKind::NoMemory`] if the system has no memory for them.
     pub fn zeroed(len: usize) -> Result<Self, Error> {
-        let wanted = len.saturating_add(PADDING);
-        let buffer = bytemuck::try_zeroed_slice_box(wanted).map_err(|()| {
+        let wanted = Zeros::wanted(len);
+        let zeros = Zeros::new(wanted).ok_or_else(|| {
             let bytes = (wanted as u64).saturating_mul(size_of::<u32>() as u64);
             Error::new(ErrorKind::NoMemory, format!("the system has no {bytes} bytes left"))
         })?;
-        let buffer: Box<[u32]> = buffer;
-        let start = buffer.as_ptr().align_offset(ALIGNMENT);
-        Ok(Self { buffer, start, len })
+        Ok(Self { start: zeros.aligned_start(), zeros, len })
     }
 
     /// The words, to write.
     pub fn words_mut(&mut self) -> &mut [u32] {
-        &mut self.buffer[self.start..self.start + self.len]
+        bytemuck::cast_slice_mut(self.floats_mut())
     }
 
     /// The same bits as floating-point numbers, to write.
     pub fn floats_mut(&mut self) -> &mut [f32] {
-        bytemuck::cast_slice_mut(self.words_mut())
+        &mut self.zeros.numbers_mut()[self.start..self.start + self.len]
     }
 
     /// The words, which never change from now on.
@@ -119,7 +112,7 @@ impl WordsMut {
 
 impl Memory for WordsMut {
     fn words(&self) -> &[u32] {
-        &self.buffer[self.start..self.start + self.len]
+        bytemuck::cast_slice(&self.zeros.numbers()[self.start..self.start + self.len])
     }
 
     fn is_borrowed(&self) -> bool {
@@ -146,7 +139,7 @@ pub(crate) fn check_bytes(bytes: u64, limits: &Limits) -> Result<(), Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::zeros::ALIGNMENT, *};
 
     #[test]
     fn new_words_are_zero_and_aligned() {
@@ -162,6 +155,10 @@ mod tests {
             (address, address, 400)
         );
         assert_eq!(WordsMut::zeroed(0).unwrap().freeze().len(), 0);
+        // So many that they have pages of their own.
+        let mut many = WordsMut::zeroed(5 << 20).unwrap();
+        assert!(many.words_mut().iter().all(|word| *word == 0));
+        assert_eq!(many.words_mut().as_ptr() as usize % ALIGNMENT, 0);
     }
 
     #[test]

@@ -41,12 +41,14 @@ struct Growth<'a> {
 
 /// The cracks after they have grown: black on white.
 pub(super) fn grow(settings: &Settings, cx: &WholeContext<'_>) -> Result<Vec<u8>, Error> {
-    let mut growth = Growth {
-        cx,
-        draws: elias::Draws::from_index(cx.seed32().wrapping_mul(32)),
-        pixels: vec![WHITE; cx.width as usize * cx.height as usize],
-        cracks: Vec::new(),
-    };
+    // Memory of zeros is taken from the system where it is written first: on all threads.
+    let mut pixels = vec![0; cx.width as usize * cx.height as usize];
+    cx.parallel_pieces(&mut pixels, cx.width as usize, |_, row| {
+        row.fill(WHITE);
+        Ok(())
+    })?;
+    let draws = elias::Draws::from_index(cx.seed32().wrapping_mul(32));
+    let mut growth = Growth { cx, draws, pixels, cracks: Vec::new() };
     for _ in 0..settings.lines {
         growth.start();
     }

@@ -110,16 +110,22 @@ fn color_areas(pixels: &mut [u8], cx: &WholeContext<'_>) -> Result<(), Error> {
     let mut canvas = fill::Canvas::new(pixels, cx.width);
     for y in 0..height {
         cx.check()?;
-        for x in 0..width {
-            let place = y * width + x;
-            if canvas.pixels()[place] == WHITE {
-                let number = 100 * x / width + 100 * y / height;
-                let color = u8::try_from(number + 1).unwrap_or(COLORS);
-                canvas.fill(place, color, || cx.check())?;
-            }
+        let mut x = 0;
+        while let Some(distance) = first_white(&canvas.pixels()[y * width..][x..width]) {
+            x += distance;
+            let number = 100 * x / width + 100 * y / height;
+            let color = u8::try_from(number + 1).unwrap_or(COLORS);
+            canvas.fill(y * width + x, color, || cx.check())?;
         }
     }
     Ok(())
+}
+
+/// How far the first white pixel is. Mostly there is none: whole pieces are looked at first.
+fn first_white(pixels: &[u8]) -> Option<usize> {
+    let piece = pixels.chunks(256).position(|piece| piece.contains(&WHITE))?;
+    let start = 256 * piece;
+    Some(start + pixels[start..].iter().position(|pixel| *pixel == WHITE)?)
 }
 
 /// Gives every black pixel what its left neighbour has then.
