@@ -2,7 +2,7 @@
 
 use ptlib::{ComputeOptions, Engine, EngineOptions, Image, value::Value};
 
-use crate::sheets::{self, CORNER, MIDDLE, SHINY, Scene, Setting};
+use crate::sheets::{self, CORNER, MIDDLE, SHEETS, SHINY, Scene, Setting, Sheet};
 
 const MASK: Scene<'_> = Scene("hair.xml", "mask");
 const LOSS_AGE: Scene<'_> = Scene("hair.xml", "loss age");
@@ -158,4 +158,19 @@ fn a_muscle_across_the_border_is_one_in_the_middle_moved_by_half() {
         }
         assert!(covered > 300, "{covered}");
     }
+}
+
+#[test]
+fn the_seed_changes_hair_and_noise_and_nothing_else() {
+    let engine = engine();
+    let changes = |sheet: &&Sheet| {
+        let [first, other] = [1, 2].map(|seed| {
+            let options =
+                ComputeOptions { size: Some((32, 32)), seed: Some(seed), ..Default::default() };
+            sheet.scene.render(&engine, sheet.tiles.last().unwrap().1, options).unwrap()
+        });
+        (0..first.planes()).any(|channel| first.channel(channel) != other.channel(channel))
+    };
+    let names: Vec<_> = SHEETS.iter().filter(changes).map(|sheet| sheet.name).collect();
+    assert_eq!(names, ["fine", "hair", "highlight"]);
 }
