@@ -45,8 +45,8 @@ const MUSCLE: Setting<'_> =
 const PAGES: &[Page] = &[
     Page {
         name: "ages",
-        tile: [280, 360],
-        of: [360, 360],
+        tile: [290, 370],
+        of: [370, 370],
         rows: &[Row(
             Scene("../head/head.xml", "view"),
             &[
@@ -99,8 +99,8 @@ const PAGES: &[Page] = &[
     },
     Page {
         name: "fronts",
-        tile: [SIDE, 270],
-        of: [SIDE, SIDE],
+        tile: [480, 290],
+        of: [480, 480],
         rows: &[
             Row(
                 Scene("hair.xml", "loss age"),
