@@ -56,3 +56,18 @@ fn the_head_of_the_example_ages() {
     let covered = ages[4].0.channel(3).iter().filter(|alpha| **alpha > 0.5).count();
     assert!((2000..7000).contains(&covered), "{covered} of 9216");
 }
+
+#[test]
+fn no_hair_of_the_example_grows_on_the_neck() {
+    // At 768 pixels the lower edge of the masks, which have 512, mixes with the upper one.
+    let (engine, graph) = example(0.0);
+    let roots = graph.find("roots").unwrap();
+    for side in [512, 768, 1024] {
+        let Value::Points(roots) = engine.compute_value(&graph, roots, 0, sized(side)).unwrap()
+        else {
+            panic!("no points");
+        };
+        let heights = roots.stream("position").unwrap().floats();
+        assert!(heights.all().all(|place| place[1] > -0.5), "{side}");
+    }
+}

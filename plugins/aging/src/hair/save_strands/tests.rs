@@ -18,7 +18,10 @@ use ptlib::{
     value::{StrandParts, Strands, Stream, StreamShape, Value, Words},
 };
 
-use crate::hair::testing::{Scene, points};
+use crate::{
+    hair::testing::{Scene, points},
+    mesh::files::{self, Alone, FileMesh},
+};
 
 /// A folder for one test, which goes with it.
 struct Folder(PathBuf);
@@ -125,6 +128,11 @@ fn ply(bytes: &[u8]) -> Ply<DefaultElement> {
     Parser::<DefaultElement>::new().read_ply(&mut &bytes[..]).unwrap()
 }
 
+/// What `load mesh` reads.
+fn read_mesh(bytes: &[u8]) -> FileMesh {
+    files::read(bytes, None, &Alone, &files::Limits::default()).unwrap()
+}
+
 fn float(element: &DefaultElement, name: &str) -> f32 {
     match element[name] {
         Property::Float(number) => number,
@@ -167,15 +175,17 @@ fn ply_of_strands_is_read_back() {
             })
             .collect();
         assert_eq!(edges, EDGES);
+        let own = read_mesh(&bytes).positions.into_iter().flatten().map(f32::to_bits);
+        assert!(own.eq(POSITIONS.into_iter().flatten().map(f32::to_bits)), "by our own reader");
     }
 }
 
 #[test]
 fn ply_of_points_has_all_that_hair_has() {
     let ages = [1.0, 0.6, 0.3];
-    let [binary, text] =
-        [PLY, PLY_TEXT].map(|format| ply(&saved([Some(points(&ages)), None], format).unwrap()));
-    for ply in [&binary, &text] {
+    for format in [PLY, PLY_TEXT] {
+        let bytes = saved([Some(points(&ages)), None], format).unwrap();
+        let ply = ply(&bytes);
         let vertices = &ply.payload["vertex"];
         assert_eq!(vertices.len(), 3);
         let names = ["x", "y", "z", "nx", "ny", "nz", "s", "t", "age", "param"];
@@ -186,6 +196,10 @@ fn ply_of_points_has_all_that_hair_has() {
             assert_eq!(names.map(|name| float(vertex, name)), expected);
         }
         assert!(!ply.payload.contains_key("edge"));
+        let own = read_mesh(&bytes);
+        assert_eq!(own.positions, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]);
+        assert_eq!(own.normals, [[0.0, 0.0, 1.0]; 3]);
+        assert_eq!(own.texcoords, [[0.0, 0.5], [0.125, 0.5], [0.25, 0.5]]);
     }
 }
 
