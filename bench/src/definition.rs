@@ -10,14 +10,16 @@ use ptlib::Precision;
 use serde::{Deserialize, de::IgnoredAny};
 
 use crate::{
-    Result, given,
+    Result,
+    change::{self, Change},
+    given,
     measure::{Times, timed},
     options::{Options, is_wanted},
     peers::{self, Peer, Task},
     plugin, process,
     report::{PeerRow, Row, Subject, rounded},
     series::{self, Series},
-    work::{self, Settings, Work, hash, precision_name},
+    work::{self, Host, Settings, Work, hash, precision_name},
 };
 
 /// One file of definitions.
@@ -63,6 +65,15 @@ pub(crate) struct Definition {
     pub(crate) plugin: Option<String>,
     /// Width and height of a grey test card that the graph's `image input` is given.
     pub(crate) picture: Option<[u32; 2]>,
+    /// The folder of this repository that the graph's files lie in, if it is not the graph's own.
+    pub(crate) folder: Option<PathBuf>,
+    /// Ids of blocks whose outputs are there before each run, like test cards.
+    #[serde(default)]
+    pub(crate) kept: Vec<String>,
+    /// What is different in each run. The hash is that of the result after the change.
+    pub(crate) change: Option<Change>,
+    /// The file that the block writes, which the hash is of.
+    pub(crate) written: Option<PathBuf>,
     /// What it ought to reach: `cargo xtask bench page` reads that.
     #[expect(dead_code, reason = "a misspelt field shall be told, so this one is known")]
     pub(crate) target: Option<IgnoredAny>,
@@ -142,7 +153,15 @@ impl Definition {
     }
 
     pub(crate) fn hash_now(&self, options: &Options) -> Result<String> {
-        Ok(hash(&self.work(options)?.compute()?))
+        self.hash_of(&mut self.work(options)?)
+    }
+
+    fn hash_of(&self, work: &mut Work) -> Result<String> {
+        let value = work.compute_value()?;
+        match &self.written {
+            Some(name) => work::hash_of_file(&work::written().join(name)),
+            None => Ok(hash(&value)),
+        }
     }
 
     /// Writes a hash into the definition's file: behind its name.
@@ -158,7 +177,7 @@ impl Definition {
     /// The row, and the hash of what was computed.
     pub(crate) fn measure(&self, options: &Options) -> Result<(Row, String)> {
         let mut work = self.work(options)?;
-        let hash = hash(&work.compute()?);
+        let hash = self.hash_of(&mut work)?;
         let Settings { size, threads, precision, .. } = work.settings;
         let (name, precision) = (self.name.clone(), precision_name(precision));
         let subject = Subject { name, size, threads, precision };
@@ -179,7 +198,7 @@ impl Definition {
     pub(crate) fn measure_peers(&self, options: &Options) -> Result<(Vec<PeerRow>, String)> {
         let mut work = self.work(options)?;
         let image = work.compute()?;
-        let hash = hash(&image);
+        let hash = hash(&image.clone().into());
         let task = Task { size: self.size.into(), picture: work.picture()? };
         let mut rows = Vec::new();
         for name in &self.peers {
@@ -220,15 +239,20 @@ impl Definition {
 
     fn work(&self, options: &Options) -> Result<Work> {
         let plugin = self.plugin.as_deref().map(plugin::file).transpose()?;
-        let engine = work::engine_with(self.threads, 0, plugin.as_deref())?;
+        let host = Host { plugin: plugin.as_deref(), writes: self.written.is_some() };
+        let engine = work::engine_with(self.threads, 0, host)?;
         let path = self.path(options);
         let in_file = |error| format!("{}: {error}", path.display());
         let mut graph = engine.open_graph(&path).map_err(in_file)?.graph;
         if let Some([width, height]) = self.picture {
             given::give(&mut graph, given::card((width, height))?)?;
         }
+        if let Some(folder) = &self.folder {
+            graph.set_folder(Some(home().join("..").join(folder)));
+        }
+        let kept = self.kept.iter().map(|id| change::find(&graph, id)).collect::<Result<_>>()?;
         let block = match &self.block {
-            Some(id) => graph.find(id).ok_or_else(|| format!("the graph has no block {id}"))?,
+            Some(id) => change::find(&graph, id)?,
             None => graph.main_result()?,
         };
         let precision = match self.precision {
@@ -238,7 +262,7 @@ impl Definition {
         let (size, threads) = (self.size.into(), self.threads);
         let supersampling = self.supersampling;
         let settings = Settings { block, size, threads, precision, supersampling };
-        Work::with_plugin(graph, settings, plugin.as_deref())
+        Work::with(graph, settings, host, kept, self.change.clone())
     }
 }
 
@@ -308,6 +332,22 @@ mod tests {
                 assert!(peers::find(peer).is_ok(), "{name}: {peer}");
             }
         }
+    }
+
+    #[test]
+    fn what_is_kept_and_changed_is_in_the_graph() {
+        let options = Options::read(&[]).unwrap();
+        let definitions = all(&[]).unwrap().into_iter();
+        let mut rows = definitions.filter(|row| row.change.is_some() || !row.kept.is_empty());
+        let mut small = rows.find(|row| row.name.starts_with("fifteen")).unwrap();
+        small.size = [16; 2];
+        let mut work = small.work(&options).unwrap();
+        let first = hash(&work.compute_value().unwrap());
+        work.run().unwrap();
+        assert_eq!(hash(&work.compute_value().unwrap()), first);
+        small.kept = vec!["no such block".to_owned()];
+        let error = small.work(&options).unwrap_err().to_string();
+        assert!(error.contains("no block no such block"), "{error}");
     }
 
     #[test]

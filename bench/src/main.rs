@@ -16,6 +16,7 @@
 mod cancel;
 mod card;
 mod catalogue;
+mod change;
 mod definition;
 mod given;
 mod measure;
@@ -47,6 +48,12 @@ fn main() -> ExitCode {
         Some((first, rest)) if first == process::CHILD => process::child(rest).map(|()| true),
         _ => Options::read(&arguments).and_then(|options| run(&options)),
     };
+    let written = work::written();
+    if written.is_dir()
+        && let Err(error) = std::fs::remove_dir_all(&written)
+    {
+        eprintln!("{}: {error}", written.display());
+    }
     match done {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,

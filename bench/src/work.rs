@@ -5,15 +5,22 @@
 //! before the next run gives its memory to that one. With cards there is a cache just large
 //! enough for two sets of cards and what one run keeps: runs take the sets by turns, and both
 //! sets are used before each run, so that the result before the last is what the cache forgets.
+//!
+//! Other blocks can be kept like cards. Then a parameter is different in each run, unless the block
+//! is one whose results are never kept: that is a graph which is computed again after a change.
 
-use std::{path::Path, time::Duration};
+use std::{
+    env, fs,
+    path::{Path, PathBuf},
+    time::Duration,
+};
 
 use ptlib::{
     BlockId, Cancel, ComputeOptions, Engine, EngineOptions, Graph, Image, Limits, Precision,
-    block::BlockSpec, params::ParamValue, run::OutputShape,
+    block::BlockSpec, params::ParamValue, run::OutputShape, value::Value,
 };
 
-use crate::{Result, card, given, measure::timed};
+use crate::{Result, card, change::Change, given, measure::timed};
 
 /// What to compute, and how.
 #[derive(Debug)]
@@ -22,8 +29,19 @@ pub(crate) struct Work {
     /// The graph with the first and with the second set of cards.
     graphs: [Graph; 2],
     cards: Vec<BlockId>,
+    /// What else is there before each run.
+    kept: Vec<BlockId>,
+    change: Option<Change>,
     runs: usize,
     pub(crate) settings: Settings,
+}
+
+/// What an engine has that others have not.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Host<'a> {
+    pub(crate) plugin: Option<&'a Path>,
+    /// Whether blocks may write below [`written`].
+    pub(crate) writes: bool,
 }
 
 /// What to compute of a graph, and how.
@@ -40,14 +58,16 @@ pub(crate) struct Settings {
 impl Work {
     /// The computation of a graph that an [`engine`] knows the types of.
     pub(crate) fn new(graph: Graph, settings: Settings) -> Result<Self> {
-        Self::with_plugin(graph, settings, None)
+        Self::with(graph, settings, Host::default(), Vec::new(), None)
     }
 
-    /// The same for a graph with blocks of a plug-in.
-    pub(crate) fn with_plugin(
+    /// The same on a host with more, of which some blocks are kept and something changes.
+    pub(crate) fn with(
         graph: Graph,
         settings: Settings,
-        plugin: Option<&Path>,
+        host: Host<'_>,
+        kept: Vec<BlockId>,
+        change: Option<Change>,
     ) -> Result<Self> {
         let is_card = |(_, block): &(_, &ptlib::graph::Block)| block.type_id() == card::ID;
         let cards: Vec<BlockId> = graph.blocks().filter(is_card).map(|(id, _)| id).collect();
@@ -55,19 +75,27 @@ impl Work {
         for card in &cards {
             other.set_int(*card, "number", 1)?;
         }
+        let first_cache = if kept.is_empty() { 0 } else { u64::MAX };
         let work = Self {
-            engine: engine_with(settings.threads, 0, plugin)?,
+            engine: engine_with(settings.threads, first_cache, host)?,
             graphs: [graph, other],
             cards,
+            kept,
+            change,
             runs: 0,
             settings,
         };
         let cache_bytes = work.cache_bytes()?;
-        Ok(Self { engine: engine_with(settings.threads, cache_bytes, plugin)?, ..work })
+        Ok(Self { engine: engine_with(settings.threads, cache_bytes, host)?, ..work })
     }
 
     /// Two sets of cards, and one result and a half.
     fn cache_bytes(&self) -> Result<u64> {
+        if !self.kept.is_empty() {
+            let bytes = |block: &BlockId| Ok(self.value(&self.graphs[0], *block)?.bytes());
+            let sum = |blocks: &[BlockId]| blocks.iter().map(bytes).sum::<Result<u64>>();
+            return Ok(sum(&self.kept)? + sum(&self.computed())? * 3 / 2);
+        }
         if self.cards.is_empty() {
             return Ok(0);
         }
@@ -78,6 +106,23 @@ impl Work {
         };
         let cards = self.cards.iter().map(|card| bytes(*card)).sum::<Result<u64>>()?;
         Ok(2 * cards + bytes(self.settings.block)? * 3 / 2)
+    }
+
+    /// The blocks that a run computes: the one that is measured, and what it needs down to those
+    /// that are kept.
+    fn computed(&self) -> Vec<BlockId> {
+        let mut computed = vec![self.settings.block];
+        let mut next = 0;
+        while let Some(block) = computed.get(next).copied() {
+            next += 1;
+            for link in self.graphs[0].connections().filter(|link| link.target == block) {
+                if !self.kept.contains(&link.source.block) && !computed.contains(&link.source.block)
+                {
+                    computed.push(link.source.block);
+                }
+            }
+        }
+        computed
     }
 
     fn options(&self) -> ComputeOptions<'static> {
@@ -96,6 +141,20 @@ impl Work {
         Ok(self.engine.compute(&self.graphs[0], self.settings.block, 0, self.options())?)
     }
 
+    /// The right result: with something that changes, the one after the change, on an engine that
+    /// has computed the graph before.
+    pub(crate) fn compute_value(&self) -> Result<Value> {
+        let value = self.value(&self.graphs[0], self.settings.block)?;
+        let Some(change) = &self.change else { return Ok(value) };
+        let mut graph = self.graphs[0].clone();
+        change.finish(&mut graph)?;
+        self.value(&graph, self.settings.block)
+    }
+
+    fn value(&self, graph: &Graph, block: BlockId) -> Result<Value> {
+        Ok(self.engine.compute_value(graph, block, 0, self.options())?)
+    }
+
     /// The picture that the graph of the first set of cards reads: a card, or what it was given.
     pub(crate) fn picture(&self) -> Result<Option<Image>> {
         let graph = &self.graphs[0];
@@ -108,11 +167,15 @@ impl Work {
     /// Computes once more; returns how long that took.
     pub(crate) fn run(&mut self) -> Result<Duration> {
         for graph in &self.graphs {
-            for card in &self.cards {
-                self.engine.compute(graph, *card, 0, self.options())?;
+            for block in self.cards.iter().chain(&self.kept) {
+                self.value(graph, *block)?;
             }
         }
         self.runs += 1;
+        let graph = &mut self.graphs[self.runs % 2];
+        if let Some(change) = &self.change {
+            change.apply(graph, self.runs)?;
+        }
         let graph = &self.graphs[self.runs % 2];
         let (block, options) = (self.settings.block, self.options());
         timed(|| Ok(self.engine.compute_value(graph, block, 0, options).map(drop)?))
@@ -153,24 +216,55 @@ impl Work {
 
 /// An engine that knows test cards, without limits that a big row could reach.
 pub(crate) fn engine(threads: u32, cache_bytes: u64) -> Engine {
+    engine_that_writes(threads, cache_bytes, Vec::new())
+}
+
+fn engine_that_writes(threads: u32, cache_bytes: u64, write_folders: Vec<PathBuf>) -> Engine {
     let limits = Limits { memory_bytes: u64::MAX, ..Limits::default() };
-    let options = EngineOptions { threads, cache_bytes, limits, ..EngineOptions::default() };
+    let options =
+        EngineOptions { threads, cache_bytes, limits, write_folders, ..EngineOptions::default() };
     let engine = Engine::new(options);
     engine.registry().add(&card::FAMILY).expect("no built-in block is a test card");
     engine
 }
 
-/// The same with the blocks of a plug-in, if there is one.
-pub(crate) fn engine_with(threads: u32, cache_bytes: u64, plugin: Option<&Path>) -> Result<Engine> {
-    let engine = engine(threads, cache_bytes);
-    if let Some(plugin) = plugin {
+/// The same with what else a host has.
+pub(crate) fn engine_with(threads: u32, cache_bytes: u64, host: Host<'_>) -> Result<Engine> {
+    let mut write_folders = Vec::new();
+    if host.writes {
+        fs::create_dir_all(written())?;
+        write_folders.push(written());
+    }
+    let engine = engine_that_writes(threads, cache_bytes, write_folders);
+    if let Some(plugin) = host.plugin {
         engine.load_plugin(plugin)?;
     }
     Ok(engine)
 }
 
-/// The hash of an image's size and of the bits of its numbers.
-pub(crate) fn hash(image: &Image) -> String {
+/// The folder that blocks of this process write into; it is removed at the end.
+pub(crate) fn written() -> PathBuf {
+    env::temp_dir().join(format!("ptlib-bench-written-{}", std::process::id()))
+}
+
+/// The hash of a file's bytes.
+pub(crate) fn hash_of_file(path: &Path) -> Result<String> {
+    Ok(blake3::hash(&fs::read(path)?).to_hex()[..HASH_DIGITS].to_owned())
+}
+
+/// The hash of a value: of an image's size and of the bits of its numbers, or of what else it
+/// contains.
+pub(crate) fn hash(value: &Value) -> String {
+    match value {
+        Value::Image(image) => hash_of_image(image),
+        other => {
+            let bytes = *other.content().as_bytes();
+            bytes[..HASH_DIGITS / 2].iter().map(|byte| format!("{byte:02x}")).collect()
+        }
+    }
+}
+
+fn hash_of_image(image: &Image) -> String {
     let mut hasher = blake3::Hasher::new();
     hasher.update(&image.width().to_le_bytes());
     hasher.update(&image.height().to_le_bytes());
@@ -235,8 +329,9 @@ mod tests {
     fn hashes_tell_images_apart() {
         let work = inverted_card();
         let image = work.compute().unwrap();
-        assert_eq!(hash(&image), hash(&work.compute().unwrap()));
-        let other = work.engine.compute(&work.graphs[1], work.settings.block, 0, work.options());
-        assert_ne!(hash(&image), hash(&other.unwrap()));
+        let image = hash(&image.into());
+        assert_eq!(image, hash(&work.compute_value().unwrap()));
+        let other = work.value(&work.graphs[1], work.settings.block).unwrap();
+        assert_ne!(image, hash(&other));
     }
 }

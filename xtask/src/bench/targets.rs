@@ -33,18 +33,24 @@ pub(super) enum Target {
     Mib(f64),
     /// At most so many times the time of another row.
     Times(f64, String),
+    /// At least so many times as fast as another row.
+    Faster(f64, String),
 }
 
 /// The rows with targets, in the order of their files.
 pub(super) fn all() -> Result<Vec<(String, Target)>> {
-    let mut targets = Vec::new();
+    let with_target = |row: Definition| Some((row.name, row.target?));
+    Ok(definitions()?.into_iter().filter_map(with_target).collect())
+}
+
+fn definitions() -> Result<Vec<Definition>> {
+    let mut definitions = Vec::new();
     for path in repository::files_in(&repository::root().join("bench/defs"), "toml")? {
         let in_file = |error| format!("{}: {error}", path.display());
         let file: File = toml::from_str(&fs::read_to_string(&path)?).map_err(in_file)?;
-        let with_target = |row: Definition| Some((row.name, row.target?));
-        targets.extend(file.bench.into_iter().filter_map(with_target));
+        definitions.extend(file.bench);
     }
-    Ok(targets)
+    Ok(definitions)
 }
 
 impl Target {
@@ -56,6 +62,9 @@ impl Target {
             Self::Ms(most) => format!("at most {most} ms"),
             Self::Mib(most) => format!("at most {most} MiB"),
             Self::Times(most, other) => format!("at most {most} times \"{other}\""),
+            Self::Faster(least, other) => {
+                format!("at least {least} times as fast as \"{other}\"")
+            }
         }
     }
 
@@ -79,6 +88,11 @@ impl Target {
                 let times = row.median_ms / other.median_ms;
                 (format!("{times:.2} times"), times <= *most)
             }
+            Self::Faster(least, other) => {
+                let other = rows.iter().find(|row| row.name == *other)?;
+                let times = other.median_ms / row.median_ms;
+                (format!("{times:.2} times as fast"), times >= *least)
+            }
         })
     }
 }
@@ -95,6 +109,8 @@ mod tests {
         assert_eq!(verdict(Target::Ms(25.0)), Some(("25.0 ms".to_owned(), true)));
         let times = Target::Times(2.0, "a".to_owned());
         assert_eq!(verdict(times), Some(("2.50 times".to_owned(), false)));
+        let faster = Target::Faster(0.5, "a".to_owned());
+        assert_eq!(verdict(faster), Some(("0.40 times as fast".to_owned(), false)));
         assert_eq!(verdict(Target::Mib(9.0)), None);
         assert_eq!(verdict(Target::Times(2.0, "c".to_owned())), None);
     }
@@ -103,6 +119,14 @@ mod tests {
     fn targets_of_other_rows_name_rows_that_there_are() {
         let targets = all().unwrap();
         assert!(targets.len() > 3);
-        assert!(targets.iter().any(|(_, target)| matches!(target, Target::Times(..))));
+        let names: Vec<_> = definitions().unwrap().into_iter().map(|row| row.name).collect();
+        let mut others = 0;
+        for (row, target) in &targets {
+            if let Target::Times(_, other) | Target::Faster(_, other) = target {
+                others += 1;
+                assert!(names.contains(other), "{row}: there is no row \"{other}\"");
+            }
+        }
+        assert!(others > 1);
     }
 }
