@@ -76,12 +76,14 @@ fn run(options: &Options) -> Result<bool> {
     }
 }
 
-/// Definitions without those that differ from the one before in the number of threads only.
+/// Definitions without those that differ from the one before in the number of threads, or in how
+/// they are measured, only.
 fn of_different_pictures(definitions: &[Definition]) -> impl Iterator<Item = &Definition> {
-    let mut before = "";
+    let mut before = None;
     definitions.iter().filter(move |definition| {
-        let is_new = definition.name != before;
-        before = &definition.name;
+        let picture = definition.place.map(|place| (&definition.example, place));
+        let is_new = picture.is_none() || picture != before;
+        before = picture;
         is_new
     })
 }

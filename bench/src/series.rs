@@ -13,7 +13,7 @@ use crate::{
 
 /// A series, as a file of definitions has it.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(crate) struct Series {
     /// Its name; those of the definitions have the size behind it.
     name: String,
@@ -27,41 +27,59 @@ pub(crate) struct Series {
     supersampling: Option<u32>,
     /// The hashes of the right results, one a size, by `--bless`.
     hashes: Vec<String>,
+    /// The most memory that a process of its own ought to have at the largest size, in MiB: with
+    /// it, there is one row more, of such processes.
+    #[serde(default)]
+    peak_mib: Option<f64>,
 }
 
 impl Series {
     /// The definitions of a series that stands in that file.
     pub(crate) fn definitions(&self, file: &Path) -> Vec<Definition> {
         let mut definitions = Vec::new();
-        for (place, side) in self.sizes.iter().enumerate() {
+        for place in 0..self.sizes.len() {
             for threads in &self.threads {
-                definitions.push(Definition {
-                    name: format!("{}, {side}", self.name),
-                    why: self.why.clone(),
-                    graph: None,
-                    texture: None,
-                    example: Some(self.example.clone()),
-                    block: None,
-                    size: [*side; 2],
-                    threads: *threads,
-                    precision: self.precision,
-                    supersampling: self.supersampling,
-                    by: By::Computing,
-                    peers: Vec::new(),
-                    plugin: None,
-                    picture: None,
-                    folder: None,
-                    kept: Vec::new(),
-                    change: None,
-                    written: None,
-                    target: None,
-                    hash: self.hashes.get(place).cloned().unwrap_or_default(),
-                    file: file.to_owned(),
-                    place: Some(place),
-                });
+                definitions.push(self.definition(file, place, *threads));
             }
         }
+        if self.peak_mib.is_some()
+            && let (Some(largest), Some(threads)) =
+                (self.sizes.len().checked_sub(1), self.threads.last())
+        {
+            let name = format!("{}, process, {}", self.name, self.sizes[largest]);
+            let row = self.definition(file, largest, *threads);
+            definitions.push(Definition { name, by: By::Process, ..row });
+        }
         definitions
+    }
+
+    /// The definition of one of the sizes.
+    fn definition(&self, file: &Path, place: usize, threads: u32) -> Definition {
+        let side = self.sizes[place];
+        Definition {
+            name: format!("{}, {side}", self.name),
+            why: self.why.clone(),
+            graph: None,
+            texture: None,
+            example: Some(self.example.clone()),
+            block: None,
+            size: [side; 2],
+            threads,
+            precision: self.precision,
+            supersampling: self.supersampling,
+            by: By::Computing,
+            peers: Vec::new(),
+            plugin: None,
+            picture: None,
+            folder: None,
+            kept: Vec::new(),
+            change: None,
+            written: None,
+            target: None,
+            hash: self.hashes.get(place).cloned().unwrap_or_default(),
+            file: file.to_owned(),
+            place: Some(place),
+        }
     }
 }
 
@@ -100,7 +118,8 @@ mod tests {
     fn every_size_is_computed_on_every_number_of_threads() {
         let series: Series = toml::from_str(
             "name = \"a\"\nwhy = \"x.\"\nexample = \"a.xml\"\nsizes = [64, 128]\n\
-             threads = [1, 2]\nprecision = \"float\"\nhashes = [\"1\", \"2\"]\n",
+             threads = [1, 2]\nprecision = \"float\"\nhashes = [\"1\", \"2\"]\n\
+             peak-mib = 9.0\n",
         )
         .unwrap();
         let definitions = series.definitions(Path::new("f"));
@@ -110,7 +129,13 @@ mod tests {
             .collect();
         assert_eq!(
             rows,
-            [("a, 64", 1, "1"), ("a, 64", 2, "1"), ("a, 128", 1, "2"), ("a, 128", 2, "2")]
+            [
+                ("a, 64", 1, "1"),
+                ("a, 64", 2, "1"),
+                ("a, 128", 1, "2"),
+                ("a, 128", 2, "2"),
+                ("a, process, 128", 2, "2")
+            ]
         );
     }
 }

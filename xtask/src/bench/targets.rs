@@ -11,12 +11,30 @@ use crate::{Result, repository};
 struct File {
     #[serde(default)]
     bench: Vec<Definition>,
+    #[serde(default)]
+    series: Vec<Series>,
 }
 
 #[derive(Debug, Deserialize)]
 struct Definition {
     name: String,
     target: Option<Target>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+struct Series {
+    name: String,
+    sizes: Vec<u32>,
+    peak_mib: Option<f64>,
+}
+
+impl Series {
+    /// The row of a process, and the memory that it ought to keep to.
+    fn target(self) -> Option<(String, Target)> {
+        let (side, peak) = (self.sizes.last()?, self.peak_mib?);
+        Some((format!("{}, process, {side}", self.name), Target::Mib(peak)))
+    }
 }
 
 /// A target; each kind says what is counted.
