@@ -159,7 +159,10 @@ pub fn hairs_that_stay<'a>(
     let mut all = 0;
     for (task, count) in counts.iter().enumerate() {
         let start = task * PLACES_OF_A_TASK;
-        hairs.copy_within(start..start + *count as usize, all);
+        // As long as all stay, they lie where they belong.
+        if all < start {
+            hairs.copy_within(start..start + *count as usize, all);
+        }
         all += *count as usize;
     }
     Ok((hairs, all))
