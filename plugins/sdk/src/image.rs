@@ -112,6 +112,7 @@ impl<'a> Image<'a> {
         unsafe { std::slice::from_raw_parts(start, self.tile.width as usize) }
     }
 
+    #[inline]
     fn plane(&self, channel: usize, y: u32) -> *const f32 {
         let plane = self.tile.planes.get(channel).copied().unwrap_or(std::ptr::null_mut());
         assert!(!plane.is_null(), "the image has no channel {channel}");

@@ -82,6 +82,7 @@ mod parts;
 mod scratch;
 mod setup;
 mod shim;
+pub mod simd;
 pub mod stream;
 mod value;
 mod wire;

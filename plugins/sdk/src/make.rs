@@ -313,10 +313,13 @@ impl StrandPoints<'_> {
         };
         match self {
             Self::Each(strands, points) => {
-                let points = number(points, "points of a strand")?;
-                let all = strands.checked_mul(points as usize).ok_or_else(too_many)?;
+                let step = number(points, "points of a strand")?;
+                let all = strands.checked_mul(points).ok_or_else(too_many)?;
                 number(all.max(strands), "points of strands")?;
-                (0..strands).try_for_each(|_| add(points))?;
+                first.extend((0..strands).scan(0, |sum: &mut u32, _| {
+                    *sum += step;
+                    Some(*sum)
+                }));
             }
             Self::Counts(counts) => counts.iter().try_for_each(|points| add(*points))?,
             Self::Of(strands) => {

@@ -10,7 +10,7 @@ fn table() -> &'static ptlp_math {
 }
 
 /// The nearest number of single precision.
-#[inline]
+#[inline(always)]
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "that is what it is for")]
 pub fn single(x: f64) -> f32 {

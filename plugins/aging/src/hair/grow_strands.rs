@@ -3,9 +3,12 @@
 //! Lengths are in diagonals of the points' bounds, so that a head of any size has the same hair.
 //! Each hair's length varies by its id alone.
 
+use std::ops::Range;
+
 use ptlib_plugin::{
     Stream,
     prelude::*,
+    simd::{self, Kernel},
     stream::{DIRECTION, ID, LOSS_AGE, POSITION, RADIUS, TEXCOORD},
 };
 
@@ -16,6 +19,9 @@ use super::{
 
 /// The channel of the random number of a length.
 const LENGTH: u32 = 6;
+
+/// Strands whose lengths are taken together.
+const BATCH: usize = 128;
 
 /// The most points of all strands, as the library has it.
 const MOST: usize = 256 << 20;
@@ -79,20 +85,14 @@ impl Block for GrowStrands {
         let kept = (streams.get(LOSS_AGE), color, streams.get(TEXCOORD), ids);
         let mut hair = call.new_strands(0, points, (POSITION, RADIUS), kept)?;
         hair.fill(|piece, (positions, radii), _| {
-            let strands = positions.chunks_mut(growth.parts.len());
-            let strands = strands.zip(radii.chunks_mut(growth.parts.len()));
-            for (root, (positions, radii)) in (piece.first..).zip(strands) {
-                let length = self.length(growth.length, ids, root);
-                let (from, along) = (from.get(root), along.get(root));
-                for (m, part) in growth.parts.iter().enumerate() {
-                    let reach = length * part;
-                    let fall = growth.droop * reach * part;
-                    positions[m] = [
-                        from[0] + along[0] * reach,
-                        from[1] + along[1] * reach - fall,
-                        from[2] + along[2] * reach,
-                    ];
-                    radii[m] = growth.radius * (1.0 - part);
+            let points = BATCH * growth.parts.len();
+            let batches = positions.chunks_mut(points).zip(radii.chunks_mut(points));
+            for (first, points) in (piece.first..).step_by(BATCH).zip(batches) {
+                let lengths = self.lengths(growth.length, ids, first..roots.count());
+                let strands = points.0.chunks_mut(growth.parts.len());
+                let strands = strands.zip(points.1.chunks_mut(growth.parts.len()));
+                for ((root, length), strand) in (first..).zip(lengths).zip(strands) {
+                    growth.write(from.get(root), along.get(root), length, strand);
                 }
             }
             Ok(())
@@ -108,6 +108,29 @@ struct Growth {
     droop: f32,
     /// Where the points of a strand lie, 0 at its root and 1 at its tip.
     parts: Vec<f32>,
+}
+
+impl Growth {
+    /// Writes a strand from a root along a direction.
+    #[inline(always)]
+    fn write(
+        &self,
+        root: [f32; 3],
+        along: [f32; 3],
+        length: f32,
+        (positions, radii): (&mut [[f32; 3]], &mut [f32]),
+    ) {
+        for ((position, radius), part) in positions.iter_mut().zip(radii).zip(&self.parts) {
+            let reach = length * part;
+            let fall = self.droop * reach * part;
+            *position = [
+                root[0] + along[0] * reach,
+                root[1] + along[1] * reach - fall,
+                root[2] + along[2] * reach,
+            ];
+            *radius = self.radius * (1.0 - part);
+        }
+    }
 }
 
 impl GrowStrands {
@@ -130,13 +153,42 @@ impl GrowStrands {
         })
     }
 
-    /// The length of the strand of a root. Roots without an id are told apart by their places.
+    /// The lengths of the strands of the first of some roots. Roots without an id are told apart by
+    /// their places.
+    fn lengths(
+        &self,
+        longest: f32,
+        ids: Option<Stream<'_, [u32; 2]>>,
+        roots: Range<usize>,
+    ) -> [f32; BATCH] {
+        let mut own = [[0; 2]; BATCH];
+        for (own, root) in own.iter_mut().zip(roots) {
+            let by_place = || [u32::try_from(root).unwrap_or(u32::MAX), 0];
+            *own = ids.map_or_else(by_place, |ids| ids.get(root));
+        }
+        let (seed, variation) = (self.seed, self.params.variation);
+        simd::run(Lengths { seed, variation, longest, ids: &own })
+    }
+}
+
+struct Lengths<'a> {
+    seed: u64,
+    variation: f64,
+    longest: f32,
+    ids: &'a [[u32; 2]; BATCH],
+}
+
+impl Kernel for Lengths<'_> {
+    type Output = [f32; BATCH];
+
     #[inline(always)]
-    fn length(&self, longest: f32, ids: Option<Stream<'_, [u32; 2]>>, root: usize) -> f32 {
-        let by_place = || [u32::try_from(root).unwrap_or(u32::MAX), 0];
-        let [item, part] = ids.map_or_else(by_place, |ids| ids.get(root));
-        let shorter = self.params.variation * random::uniform(self.seed, item, part, LENGTH);
-        longest * math::single(1.0 - shorter)
+    fn run(self) -> [f32; BATCH] {
+        let mut lengths = [0.0; BATCH];
+        for (length, [item, part]) in lengths.iter_mut().zip(self.ids) {
+            let shorter = self.variation * random::uniform(self.seed, *item, *part, LENGTH);
+            *length = self.longest * math::single(1.0 - shorter);
+        }
+        lengths
     }
 }
 

@@ -56,15 +56,12 @@ impl Block for HairAtAge {
     fn compute(&self, call: &mut Call<'_>) -> Result<(), BlockError> {
         let (points, work) = (call.points(0)?, call.work());
         let ages = points.streams().need(LOSS_AGE)?;
-        let count = self.count(ages, work)?;
+        let counts = self.counts(ages, work)?;
+        let count = counts.iter().map(|count| *count as usize).sum();
         if count == ages.len() {
             return call.pass(0, 0);
         }
-        let is_prefix = match ages.as_slice() {
-            Some(ages) => ages[..count].iter().all(|loss| *loss >= self.age),
-            None => (0..count).all(|point| ages.get(point) >= self.age),
-        };
-        if is_prefix {
+        if self.is_prefix(ages, &counts, count) {
             // The first so many of each stream, shared.
             return call.new_points(0, count, points.streams())?.finish();
         }
@@ -73,8 +70,12 @@ impl Block for HairAtAge {
 }
 
 impl HairAtAge {
-    /// How many are left.
-    fn count(&self, ages: Stream<'_, f32>, work: Work<'_>) -> Result<usize, BlockError> {
+    /// How many are left of each task's.
+    fn counts<'a>(
+        &self,
+        ages: Stream<'_, f32>,
+        work: Work<'a>,
+    ) -> Result<Scratch<'a, u32>, BlockError> {
         let mut counts = work.scratch::<u32>(ages.len().div_ceil(POINTS_OF_A_TASK))?;
         let age = self.age;
         work.for_each(counts.iter_mut().enumerate(), |(task, count)| {
@@ -86,7 +87,17 @@ impl HairAtAge {
             };
             Ok(())
         })?;
-        Ok(counts.iter().map(|count| *count as usize).sum())
+        Ok(counts)
+    }
+
+    /// Whether those that are left are the first `count`: all of the tasks before the one where
+    /// they end, and none of those behind, so that only this one is looked at again.
+    fn is_prefix(&self, ages: Stream<'_, f32>, counts: &[u32], count: usize) -> bool {
+        let (full, rest) = (count / POINTS_OF_A_TASK, count % POINTS_OF_A_TASK);
+        let are_full = counts[..full].iter().all(|left| *left as usize == POINTS_OF_A_TASK);
+        let is_first = counts.get(full).is_none_or(|left| *left as usize == rest);
+        let first = full * POINTS_OF_A_TASK;
+        are_full && is_first && (first..count).all(|point| ages.get(point) >= self.age)
     }
 
     /// The places of those that are left, where these are not the first so many.

@@ -14,9 +14,10 @@ use ptlib_plugin::{
 use super::{
     random,
     scatter::{
+        batch::{BATCH, Batch},
         candidates::{self, Amount, Hair},
         ground::Ground,
-        lean::Lean,
+        lean::{self, Lean},
         order,
     },
     vector::between,
@@ -121,16 +122,22 @@ impl ScatterHair {
         let mut points = call.new_points(0, hairs.len(), streams)?;
         points.fill(|first, (positions, directions, texcoords, ages, randoms, ids)| {
             let hairs = &hairs[first..][..positions.len()];
-            for (i, [key, item, place]) in hairs.iter().copied().enumerate() {
-                let triangle = item as usize;
-                let weights = candidates::weights(seed, item, place);
-                let normal = ground.normal(triangle, weights);
-                positions[i] = ground.root(triangle, weights);
-                directions[i] = lean.direction(seed, [item, place], normal);
-                texcoords[i] = between(ground.texcoords(triangle), weights).map(math::single);
-                ages[i] = candidates::loss_age(key);
-                randoms[i] = math::single(random::uniform(seed, item, place, KEPT));
-                ids[i] = [item, place];
+            let mut batch = Batch::new(seed);
+            for start in (0..hairs.len()).step_by(BATCH) {
+                let some = &hairs[start..hairs.len().min(start + BATCH)];
+                batch.fill(some.iter().map(|[_, item, place]| [*item, *place]));
+                let [distances, angles, kept] =
+                    [lean::DISTANCE, lean::ANGLE, KEPT].map(|channel| batch.bits24(channel));
+                let leaning = lean.directions([&distances, &angles], &ground.normals(&batch));
+                for (i, (id, weights)) in batch.hairs().enumerate() {
+                    let (at, triangle) = (start + i, id[0] as usize);
+                    positions[at] = ground.root(triangle, weights);
+                    directions[at] = leaning.each_ref().map(|numbers| numbers[i]);
+                    texcoords[at] = between(ground.texcoords(triangle), weights).map(math::single);
+                    ages[at] = candidates::loss_age(some[i][0]);
+                    randoms[at] = math::single(random::unit(kept[i]));
+                    ids[at] = id;
+                }
             }
             Ok(())
         })?;

@@ -8,7 +8,11 @@
 //!
 //! Nothing here knows of heads: it makes the normal map of any height map.
 
-use ptlib_plugin::{Image, Row, prelude::*};
+use ptlib_plugin::{
+    Image, Row,
+    prelude::*,
+    simd::{self, Kernel},
+};
 
 use super::packing::{LANES, Packing, ZRange};
 
@@ -126,7 +130,7 @@ impl HeightToNormal {
                 rows: [&above[from..], &below[from..]],
             };
             let out = planes.each_mut().map(|plane| &mut plane[from - x..to - x]);
-            self.normals(&around, [across, down * self.up], out);
+            simd::run(Normals { around, slopes: [across, down * self.up], z: self.z, out });
         };
         // What lies at a side of the image, and all between, whose neighbours follow each other.
         for border in [0, width - 1] {
@@ -153,9 +157,23 @@ impl HeightToNormal {
         let slope = if is_border { 2.0 * self.slope } else { self.slope };
         (at.saturating_sub(1), (at + 1).min(last), slope)
     }
+}
+
+/// Some normals of a row.
+struct Normals<'a> {
+    around: Around<'a>,
+    /// What differences across and down are multiplied by.
+    slopes: [f32; 2],
+    z: Packing,
+    out: [&'a mut [f32]; 4],
+}
+
+impl Kernel for Normals<'_> {
+    type Output = ();
 
     #[inline(always)]
-    fn normals(&self, around: &Around<'_>, [across, down]: [f32; 2], out: [&mut [f32]; 4]) {
+    fn run(self) {
+        let Self { around, slopes: [across, down], z: packing, out } = self;
         let own = around.own;
         let [left, right] = around.sides.map(|row| &row[..own.len()]);
         let [above, below] = around.rows.map(|row| &row[..own.len()]);
@@ -172,7 +190,7 @@ impl HeightToNormal {
                 let inverse = 1.0 / (across * across + down * down + 1.0).sqrt();
                 x[i] = Packing::HALVED.packed(across * inverse);
                 y[i] = Packing::HALVED.packed(down * inverse);
-                z[i] = self.z.packed(inverse);
+                z[i] = packing.packed(inverse);
             }
             red[start..end].copy_from_slice(x);
             green[start..end].copy_from_slice(y);

@@ -7,7 +7,10 @@
 
 use ptlib_plugin::{Scratch, prelude::*};
 
-use super::ground::Ground;
+use super::{
+    batch::{BATCH, Batch},
+    ground::Ground,
+};
 use crate::hair::{random, vector::between};
 
 /// A hair that stays: a key that rises as the age of loss falls, the triangle, the place on it.
@@ -156,7 +159,10 @@ pub fn hairs_that_stay<'a>(
     let mut all = 0;
     for (task, count) in counts.iter().enumerate() {
         let start = task * PLACES_OF_A_TASK;
-        hairs.copy_within(start..start + *count as usize, all);
+        // As long as all stay, they lie where they belong.
+        if all < start {
+            hairs.copy_within(start..start + *count as usize, all);
+        }
         all += *count as usize;
     }
     Ok((hairs, all))
@@ -167,17 +173,17 @@ fn stay((ground, seed): (&Ground<'_>, u64), first: &[u32], start: u32, hairs: &m
     let end = start.saturating_add(u32::try_from(hairs.len()).unwrap_or(u32::MAX));
     // The triangle of the first place: the last one that begins no later.
     let mut triangle = first.partition_point(|first| *first <= start).saturating_sub(1);
-    let (mut next, mut kept) = (start, 0_u32);
-    while next < end {
-        let last = first[triangle + 1].min(end);
-        if last == next {
+    let mut next_id = |next: u32| {
+        while first[triangle + 1] <= next {
             triangle += 1;
-            continue;
         }
-        let texcoords = ground.texcoords(triangle);
-        let item = u32::try_from(triangle).unwrap_or(u32::MAX);
-        for place in next - first[triangle]..last - first[triangle] {
-            let texcoord = between(texcoords, weights(seed, item, place));
+        [u32::try_from(triangle).unwrap_or(u32::MAX), next - first[triangle]]
+    };
+    let (mut batch, mut kept) = (Batch::new(seed), 0_u32);
+    for start in (start..end).step_by(BATCH) {
+        batch.fill((start..end).map(&mut next_id));
+        for ([item, place], weights) in batch.hairs() {
+            let texcoord = between(ground.texcoords(item as usize), weights);
             let age = ground.loss_age(texcoord);
             let stays = age > 0.0
                 && ground.density(texcoord).is_none_or(|density| {
@@ -187,8 +193,6 @@ fn stay((ground, seed): (&Ground<'_>, u64), first: &[u32], start: u32, hairs: &m
             hairs[kept as usize] = [key(age), item, place];
             kept += u32::from(stays);
         }
-        next = last;
-        triangle += 1;
     }
     kept
 }

@@ -1,7 +1,12 @@
 //! What hair grows on: the triangles of a mesh, and the images that say where and how dense.
 
-use ptlib_plugin::{Element, Image, Mesh, Stream, prelude::*};
+use ptlib_plugin::{
+    Element, Image, Mesh, Stream,
+    prelude::*,
+    simd::{self, Kernel},
+};
 
+use super::batch::{BATCH, Batch};
 use crate::hair::vector::{Vector, between, cross, direction, length, minus, wide};
 
 /// Normals that are shorter have no direction.
@@ -75,16 +80,24 @@ impl<'a> Ground<'a> {
         between(self.corners(triangle), weights).map(math::single)
     }
 
-    /// The direction away from the surface there: the normals' mean, or the front of a triangle
-    /// whose normals cancel each other or are not there.
-    #[inline(always)]
-    pub fn normal(&self, triangle: usize, weights: [f64; 2]) -> Vector {
-        let corners = self.triangles[triangle];
-        self.normals
-            .as_ref()
-            .and_then(|normals| direction(between(normals.of_triangle(corners), weights), SHORTEST))
-            .or_else(|| direction(self.front(triangle), 0.0))
-            .unwrap_or([0.0, 1.0, 0.0])
+    /// The directions away from the surface at the roots of a batch, by axis: the normals' means, or
+    /// the fronts of triangles whose normals cancel each other or are not there.
+    pub fn normals(&self, batch: &Batch) -> [[f64; BATCH]; 3] {
+        let mut normals = [[0.0; BATCH]; 3];
+        if let Some(of_corners) = &self.normals {
+            for (i, ([triangle, _], weights)) in batch.hairs().enumerate() {
+                let corners = self.triangles[triangle as usize];
+                put(&mut normals, i, between(of_corners.of_triangle(corners), weights));
+            }
+            simd::run(Units(&mut normals));
+        }
+        for (i, ([triangle, _], _)) in batch.hairs().enumerate() {
+            if normals.each_ref().map(|numbers| numbers[i]) == [0.0; 3] {
+                let front = direction(self.front(triangle as usize), 0.0);
+                put(&mut normals, i, front.unwrap_or([0.0, 1.0, 0.0]));
+            }
+        }
+        normals
     }
 
     /// The age at which hair is lost at texture coordinates; 0 where none grows.
@@ -99,6 +112,31 @@ impl<'a> Ground<'a> {
     #[inline(always)]
     pub fn density(&self, texcoord: [f64; 2]) -> Option<f64> {
         self.density.as_ref().map(|density| f64::from(pixel(density, texcoord)))
+    }
+}
+
+#[inline(always)]
+fn put(vectors: &mut [[f64; BATCH]; 3], i: usize, vector: Vector) {
+    for (numbers, number) in vectors.iter_mut().zip(vector) {
+        numbers[i] = number;
+    }
+}
+
+/// Makes vectors of length 1; those that have no direction become zero.
+struct Units<'a>(&'a mut [[f64; BATCH]; 3]);
+
+impl Kernel for Units<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let [xs, ys, zs] = self.0;
+        for i in 0..BATCH {
+            let length = length([xs[i], ys[i], zs[i]]);
+            let inverse = 1.0 / length;
+            let unit = |x: f64| if length > SHORTEST { x * inverse } else { 0.0 };
+            (xs[i], ys[i], zs[i]) = (unit(xs[i]), unit(ys[i]), unit(zs[i]));
+        }
     }
 }
 
@@ -135,14 +173,24 @@ fn pixel(image: &Image<'_>, [u, v]: [f64; 2]) -> f32 {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "coordinates of values are below 2^63, and the place is one of few"
+    reason = "the place is one of few, and not negative"
 )]
 fn place(coordinate: f64, count: u32) -> u32 {
+    // Nearly all lie there.
+    let is_inside = (0.0..1.0).contains(&coordinate);
+    let wrapped = if is_inside { coordinate } else { wrapped(coordinate) };
+    ((wrapped * f64::from(count)) as u32).min(count - 1)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    reason = "coordinates of values are below 2^63"
+)]
+fn wrapped(coordinate: f64) -> f64 {
     // `floor` is a call on processors of the baseline.
     let rest = coordinate - (coordinate as i64) as f64;
-    let wrapped = if rest < 0.0 { rest + 1.0 } else { rest };
-    ((wrapped * f64::from(count)) as u32).min(count - 1)
+    if rest < 0.0 { rest + 1.0 } else { rest }
 }
 
 #[cfg(test)]

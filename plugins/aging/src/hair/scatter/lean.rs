@@ -7,15 +7,20 @@
 
 use std::f64::consts::TAU;
 
-use ptlib_plugin::prelude::*;
-
-use crate::hair::{
-    random,
-    vector::{Vector, direction},
+use ptlib_plugin::{
+    prelude::*,
+    simd::{self, Kernel},
 };
 
-const DISTANCE: u32 = 3;
-const ANGLE: u32 = 4;
+use super::batch::BATCH;
+use crate::hair::{
+    random,
+    vector::{Vector, length},
+};
+
+/// Channels of the random numbers.
+pub const DISTANCE: u32 = 3;
+pub const ANGLE: u32 = 4;
 
 /// Steps of the table of a circle.
 const STEPS: usize = 256;
@@ -39,28 +44,63 @@ impl Lean {
         Self { slope: math::tan(spread.to_radians()), circle: circle.collect() }
     }
 
-    /// The direction of a hair.
-    #[inline(always)]
-    pub fn direction(&self, seed: u64, [item, place]: [u32; 2], normal: Vector) -> [f32; 3] {
-        let distance = self.slope * random::uniform(seed, item, place, DISTANCE).sqrt();
-        let [cos, sin] = self.turn(random::bits24(seed, item, place, ANGLE));
-        let [t, b] = frame(normal);
-        let leaning =
-            [0, 1, 2].map(|axis| normal[axis] + distance * (cos * t[axis] + sin * b[axis]));
-        // At least as long as the normal, which lies across the lean.
-        direction(leaning, 0.0).unwrap_or(normal).map(math::single)
+    /// The directions of a batch of hairs, by axis: from 24 random bits of each for its distance and
+    /// for its angle, and from the normals.
+    pub fn directions(
+        &self,
+        [distances, angles]: [&[u32; BATCH]; 2],
+        normals: &[[f64; BATCH]; 3],
+    ) -> [[f32; BATCH]; 3] {
+        let [mut cos, mut sin] = [[0.0; BATCH]; 2];
+        for ((cos, sin), parts) in cos.iter_mut().zip(&mut sin).zip(angles) {
+            [*cos, *sin] = self.circle[(parts >> REST_BITS) as usize % STEPS];
+        }
+        let steps = [&cos, &sin];
+        simd::run(Leaning { slope: self.slope, distances, angles, steps, normals })
     }
+}
 
-    /// Cosine and sine of 2⁻²⁴ parts of a circle: the step's, turned by the small rest, for which a
-    /// few terms are exact to 10⁻¹⁵.
+/// Cosine and sine of 2⁻²⁴ parts of a circle: the step's, turned by the small rest, for which a few
+/// terms are exact to 10⁻¹⁵.
+#[inline(always)]
+fn turned([cos, sin]: [f64; 2], parts: u32) -> [f64; 2] {
+    let rest = (parts & ((1 << REST_BITS) - 1)).cast_signed();
+    let rest = f64::from(rest) * (TAU / 16_777_216.0);
+    let square = rest * rest;
+    let small_sin = rest * (1.0 - square / 6.0 * (1.0 - square / 20.0));
+    let small_cos = 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0));
+    [cos * small_cos - sin * small_sin, sin * small_cos + cos * small_sin]
+}
+
+struct Leaning<'a> {
+    slope: f64,
+    distances: &'a [u32; BATCH],
+    angles: &'a [u32; BATCH],
+    /// Cosine and sine of the steps of the angles.
+    steps: [&'a [f64; BATCH]; 2],
+    normals: &'a [[f64; BATCH]; 3],
+}
+
+impl Kernel for Leaning<'_> {
+    type Output = [[f32; BATCH]; 3];
+
     #[inline(always)]
-    fn turn(&self, parts: u32) -> [f64; 2] {
-        let [cos, sin] = self.circle[(parts >> REST_BITS) as usize % STEPS];
-        let rest = f64::from(parts & ((1 << REST_BITS) - 1)) * (TAU / 16_777_216.0);
-        let square = rest * rest;
-        let small_sin = rest * (1.0 - square / 6.0 * (1.0 - square / 20.0));
-        let small_cos = 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0));
-        [cos * small_cos - sin * small_sin, sin * small_cos + cos * small_sin]
+    fn run(self) -> Self::Output {
+        let mut directions = [[0.0; BATCH]; 3];
+        for i in 0..BATCH {
+            let normal = self.normals.each_ref().map(|numbers| numbers[i]);
+            let distance = self.slope * random::unit(self.distances[i]).sqrt();
+            let [cos, sin] = turned(self.steps.map(|numbers| numbers[i]), self.angles[i]);
+            let [t, b] = frame(normal);
+            let leaning =
+                [0, 1, 2].map(|axis| normal[axis] + distance * (cos * t[axis] + sin * b[axis]));
+            // At least as long as the normal, which lies across the lean.
+            let inverse = 1.0 / length(leaning);
+            for (numbers, number) in directions.iter_mut().zip(leaning) {
+                numbers[i] = math::single(number * inverse);
+            }
+        }
+        directions
     }
 }
 
@@ -94,12 +134,10 @@ mod tests {
     #[test]
     fn angles_are_exact() {
         let angle = |parts: u32| f64::from(parts) * (TAU / 16_777_216.0);
-        let circle = (0..256)
-            .map(|step| angle(step << 16))
-            .map(|angle| [elementary::cos64(angle), elementary::sin64(angle)]);
-        let lean = Lean { slope: 0.0, circle: circle.collect() };
         for parts in (0..16_777_216).step_by(99_991) {
-            let [cos, sin] = lean.turn(parts);
+            let step = angle(parts >> 16 << 16);
+            let step = [elementary::cos64(step), elementary::sin64(step)];
+            let [cos, sin] = turned(step, parts);
             assert!((cos - elementary::cos64(angle(parts))).abs() < 1e-14, "{parts}");
             assert!((sin - elementary::sin64(angle(parts))).abs() < 1e-14, "{parts}");
         }
