@@ -57,18 +57,14 @@ pub(super) enum Target {
 
 /// The rows with targets, in the order of their files.
 pub(super) fn all() -> Result<Vec<(String, Target)>> {
-    let with_target = |row: Definition| Some((row.name, row.target?));
-    Ok(definitions()?.into_iter().filter_map(with_target).collect())
-}
-
-fn definitions() -> Result<Vec<Definition>> {
-    let mut definitions = Vec::new();
+    let mut targets = Vec::new();
     for path in repository::files_in(&repository::root().join("bench/defs"), "toml")? {
         let in_file = |error| format!("{}: {error}", path.display());
         let file: File = toml::from_str(&fs::read_to_string(&path)?).map_err(in_file)?;
-        definitions.extend(file.bench);
+        targets.extend(file.bench.into_iter().filter_map(|row| Some((row.name, row.target?))));
+        targets.extend(file.series.into_iter().filter_map(Series::target));
     }
-    Ok(definitions)
+    Ok(targets)
 }
 
 impl Target {
