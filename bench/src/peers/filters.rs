@@ -44,13 +44,13 @@ pub(super) static PEERS: &[Peer] = &[
     },
     Peer {
         name: "libblur, gaussian",
-        does: "13 taps along rows, then along columns; ours sums 13 × 13",
+        does: "13 taps along rows, then along columns; ours takes columns first",
         near: Some(LENGTH),
         make: libblur_gaussian,
     },
     Peer {
         name: "imageproc, gaussian",
-        does: "9 taps along rows, then along columns; ours sums 13 × 13",
+        does: "9 taps along rows, then along columns; ours takes 13",
         near: Some(LENGTH),
         make: imageproc_gaussian,
     },

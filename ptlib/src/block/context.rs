@@ -75,6 +75,12 @@ pub trait Progress: Send + Sync {
         task: &(dyn Fn(usize) -> Result<(), Error> + Sync),
     ) -> Result<(), Error>;
 
+    /// How many threads [`parallel`](Self::parallel) runs tasks on, for those who cut work into as
+    /// many tasks. No result may depend on it.
+    fn threads(&self) -> usize {
+        1
+    }
+
     /// Tells that `fraction` (0..1) of the block's work is done. Only for blocks of shape Whole.
     fn report(&self, fraction: f64);
 }

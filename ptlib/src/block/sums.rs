@@ -26,7 +26,8 @@ impl Context<'_> {
         planes: usize,
     ) -> Result<LineSums, Error> {
         let mut sums = self.unwritten_sums(image, planes)?;
-        self.parallel_pieces(&mut plan.bands(image, &mut sums), 1, |_, bands| {
+        let mut bands = plan.bands(self.progress.threads(), image, &mut sums);
+        self.parallel_pieces(&mut bands, 1, |_, bands| {
             bands.iter_mut().try_for_each(|band| band.fill(self.simd, || self.check()))
         })?;
         Ok(sums)

@@ -95,13 +95,32 @@ impl SimdLevel {
     }
 }
 
-/// Asks for the memory of `values`, to write it soon. Does nothing where a CPU cannot do that.
-pub fn fetch_to_write(values: &[f32]) {
+/// Asks for the memory of `values`, to read it soon: for those that lie where a CPU does not look
+/// for them by itself. Does nothing where a CPU cannot do that.
+#[inline(always)]
+pub fn fetch_to_read(values: &[f32]) {
     /// Values of a cache line.
     #[cfg(target_arch = "x86_64")]
     const LINE: usize = 16;
     #[cfg(target_arch = "x86_64")]
     for line in values.chunks(LINE) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a hint about an address, whatever lies there. It changes nothing.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(line.as_ptr().cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = values;
+}
+
+/// Asks for the memory of `values`, to write it soon. Does nothing where a CPU cannot do that.
+#[inline(always)]
+pub fn fetch_to_write<T>(values: &[T]) {
+    /// Bytes of a cache line.
+    #[cfg(target_arch = "x86_64")]
+    const LINE: usize = 64;
+    #[cfg(target_arch = "x86_64")]
+    for line in values.chunks(const { LINE / if size_of::<T>() > 1 { size_of::<T>() } else { 1 } })
+    {
         // The intrinsic becomes a prefetch for reading unless the whole crate is compiled for CPUs
         // that have this instruction; those that have not take it for no operation.
         // SAFETY: a hint about an address, whatever lies there. It changes nothing.

@@ -167,6 +167,10 @@ impl Progress for Monitor<'_> {
         self.threads.run(self.count, count, &task, &|| self.check())
     }
 
+    fn threads(&self) -> usize {
+        self.thread_count()
+    }
+
     fn report(&self, fraction: f64) {
         if let Some(teller) = &self.teller
             && let Ok(state) = teller.state.try_lock()

@@ -29,6 +29,9 @@ use crate::{
 /// first-level cache.
 const SEGMENT: usize = 1024;
 
+/// How many pixels of a row longer than a segment are fetched before it is written.
+const FETCHED: usize = SEGMENT / 4;
+
 /// Pixels of a strip: long enough that starting a task costs nothing, short enough that a request
 /// to stop is heard soon and that threads finish together.
 const STRIP_PIXELS: u32 = 1 << 16;
@@ -324,11 +327,13 @@ impl StageRows<'_> {
 }
 
 /// Has the part of the stored planes that the next segment writes on its way meanwhile: a long
-/// chain of blocks would wait for it, while the memory has nothing to do.
+/// chain of blocks would wait for it, while the memory has nothing to do. Of a long row it is only
+/// the beginning: more at a time than a CPU can wait for would hold up the row before it.
 fn fetch_next(strip: &Strip<'_>, offset: usize, len: usize) {
+    let wanted = if len > SEGMENT { FETCHED } else { len };
     for plane in &strip.stored {
         let next = plane.get(offset + len..).unwrap_or_default();
-        simd::fetch_to_write(&next[..next.len().min(len)]);
+        simd::fetch_to_write(&next[..next.len().min(wanted)]);
     }
 }
 

@@ -74,7 +74,7 @@ impl Image {
     }
 
     /// Row `y` of channel `channel`.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn row(&self, channel: usize, y: u32) -> &[f32] {
         let width = self.width as usize;

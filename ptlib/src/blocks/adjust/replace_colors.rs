@@ -13,6 +13,9 @@ use crate::block::prelude::*;
 const IMAGE: usize = 0;
 const COLORS: usize = 4;
 
+/// Pixels whose colours are compared together.
+const PIECE: usize = 128;
+
 params! {
     /// Parameters of [`BLOCK`].
     Params {
@@ -78,24 +81,52 @@ impl PointBlock for ReplaceColors {
 
     #[inline(always)]
     fn row<L: Levels>(&self, _: &RowContext<'_>, inputs: &InputRows<'_>, out: &mut OutputRow<'_>) {
-        let [red, green, blue] = inputs.rgb(IMAGE);
         for (channel, out) in out.iter_mut().enumerate() {
-            let kept = inputs.channel(IMAGE, channel);
-            out.copy_from_slice(kept);
-            // From the last colour to the first, which has the last word.
-            for (k, color) in self.colors.iter().enumerate().rev() {
-                let slot = k + 1;
-                let is_there = inputs.is_connected(slot);
-                let shown = if is_there { inputs.channel(slot, channel) } else { kept };
-                let colours = red.iter().zip(green).zip(blue);
-                for ((out, shown), ((red, green), blue)) in out.iter_mut().zip(shown).zip(colours) {
-                    let is_color = (levels::to_level(*red) == color[0])
-                        & (levels::to_level(*green) == color[1])
-                        & (levels::to_level(*blue) == color[2]);
-                    *out = if is_color { *shown } else { *out };
+            out.copy_from_slice(inputs.channel(IMAGE, channel));
+        }
+        let rgb = inputs.rgb(IMAGE);
+        for start in (0..rgb[0].len()).step_by(PIECE) {
+            let piece = start..rgb[0].len().min(start + PIECE);
+            let found = self.find(rgb.map(|plane| &plane[piece.clone()]));
+            for (slot, color) in (1..=COLORS).zip(1..) {
+                // Most colours are rare: then the other picture need not be read.
+                let is_there = found.iter().fold(false, |any, found| any | (*found == color));
+                if !is_there || !inputs.is_connected(slot) {
+                    continue;
+                }
+                for (channel, out) in out.iter_mut().enumerate() {
+                    let shown = &inputs.channel(slot, channel)[piece.clone()];
+                    for ((out, shown), found) in out[piece.clone()].iter_mut().zip(shown).zip(found)
+                    {
+                        *out = if found == color { *shown } else { *out };
+                    }
                 }
             }
         }
+    }
+}
+
+impl ReplaceColors {
+    /// For each pixel the number of its colour, or 0.
+    #[inline(always)]
+    fn find(&self, rgb: [&[f32]; 3]) -> [i32; PIECE] {
+        let mut levels = [[-1.0; PIECE]; 3];
+        for (levels, plane) in levels.iter_mut().zip(rgb) {
+            for (level, value) in levels.iter_mut().zip(plane) {
+                *level = levels::to_level(*value);
+            }
+        }
+        let [red, green, blue] = &levels;
+        let mut found = [0; PIECE];
+        // From the last colour to the first, which has the last word.
+        for (number, color) in [1, 2, 3, 4].into_iter().zip(&self.colors).rev() {
+            for (i, found) in found.iter_mut().enumerate() {
+                let is_color =
+                    (red[i] == color[0]) & (green[i] == color[1]) & (blue[i] == color[2]);
+                *found = if is_color { number } else { *found };
+            }
+        }
+        found
     }
 }
 

@@ -48,7 +48,7 @@ pub static BLOCK: BlockSpec = BlockSpec::gather::<Blur>(About {
 /// What is left to do for a row.
 enum Blur {
     Nothing(Image),
-    Square { sums: SquareSums, mean: Mean },
+    Square(SquareSums),
     Row { image: Image, row: SlidingSum<1>, fixed: FixedPoint, mean: Mean },
     Line { sums: LineSums, mean: Mean },
 }
@@ -64,9 +64,7 @@ impl GatherBlock for Blur {
         }
         let side = f64::from(2 * radius + 1);
         if !params.motion {
-            let sums = cx.square_sums::<L>(radius, image)?;
-            let mean = Mean::of(side * side, sums.fixed());
-            return Ok(Self::Square { sums, mean });
+            return Ok(Self::Square(cx.square_sums::<L>(radius, image)?));
         }
         let window = Window::around(radius);
         let fixed = FixedPoint::new::<L>(2 * radius + 1);
@@ -90,9 +88,7 @@ impl GatherBlock for Blur {
         for (channel, out) in out.iter_mut().enumerate() {
             match self {
                 Self::Nothing(image) => out.copy_from_slice(image.row(channel, cx.y)),
-                Self::Square { sums, mean } => {
-                    sums.row(channel, cx.y).along(|sum| sum, out, |_, sum| mean.store::<L>(sum));
-                }
+                Self::Square(sums) => sums.means::<L>(channel, cx.y, out),
                 Self::Row { image, row, fixed, mean } => row.along(
                     image.row(channel, cx.y),
                     |value| fixed.integer(value),

@@ -11,7 +11,7 @@
 //! rows in the same manner, from the first one, which alone is added up pixel by pixel.
 
 use crate::block::prelude::*;
-use box_sum::{FixedPoint, LinePlan, LineSums, Mean, RunningSum, Tap, Window};
+use box_sum::{Extent, FixedPoint, LinePlan, LineSums, Mean, RunningSum, Tap, Window};
 
 const IMAGE: usize = 0;
 
@@ -42,6 +42,7 @@ enum Emboss {
 /// The sums that make slopes, all over the 2I rows from I above a pixel on.
 struct Slopes {
     radius: i64,
+    extent: Extent,
     columns: LineSums,
     /// Down to the left.
     diagonals: LineSums,
@@ -67,6 +68,7 @@ impl GatherBlock for Emboss {
         };
         let mut slopes = Slopes {
             radius: i64::from(radius),
+            extent: extent(radius, fixed),
             columns: along(0)?,
             diagonals: along(-1)?,
             starts: Vec::new(),
@@ -88,7 +90,7 @@ impl GatherBlock for Emboss {
                 Self::Nothing(image) => out.copy_from_slice(image.row(channel, cx.y)),
                 Self::Slopes(slopes) => {
                     let slope = slopes.along_row(channel, cx);
-                    slope.along(|sum| sum, out, |_, sum| slopes.unit.store::<L>(sum));
+                    slope.along(|sum| sum, out, |out, sum| *out = slopes.unit.store::<L>(sum));
                 }
             }
         }
@@ -99,6 +101,11 @@ impl GatherBlock for Emboss {
     }
 }
 
+/// How large slopes may be: those of a white half of the square beside a black one.
+fn extent(radius: u32, fixed: FixedPoint) -> Extent {
+    Extent::of_signed(f64::from(2 * radius + 1) * f64::from(radius) * fixed.one())
+}
+
 impl Slopes {
     /// The slopes of a row, which run to the right.
     fn along_row(&self, channel: usize, cx: &RowContext<'_>) -> RunningSum<'_, i32, 2> {
@@ -107,6 +114,7 @@ impl Slopes {
         let columns = |y| self.columns.row(channel, y);
         let diagonals = |y| self.diagonals.row(channel, y);
         RunningSum {
+            extent: self.extent,
             sum: self.starts[channel][cx.y as usize],
             gained: [tap(columns(cx.y), -self.radius), tap(columns(below), self.radius + 1)],
             lost: [tap(diagonals(cx.y), 0), tap(diagonals(below), 0)],

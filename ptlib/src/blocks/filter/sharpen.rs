@@ -7,7 +7,7 @@
 //! the image, so the result tiles.
 
 use crate::block::prelude::*;
-use box_sum::{Mean, SquareSums};
+use box_sum::{Mean, SquareSums, number};
 
 const IMAGE: usize = 0;
 
@@ -51,20 +51,19 @@ impl GatherBlock for Sharpen {
     #[inline(always)]
     fn row<L: Levels>(&self, cx: &RowContext<'_>, _: &InputRows<'_>, out: &mut OutputRow<'_>) {
         for (channel, out) in out.iter_mut().enumerate() {
-            let pixels = self.image.row(channel, cx.y);
+            out.copy_from_slice(self.image.row(channel, cx.y));
             let Some(squares) = &self.squares else {
-                out.copy_from_slice(pixels);
                 continue;
             };
-            let (count, fixed) = (squares.pixels().cast_signed(), squares.fixed());
+            let (count, fixed) = (number(squares.pixels().cast_signed()), squares.fixed());
             let unit = Mean::of(1.0, fixed);
             squares.row(channel, cx.y).along(
                 |sum| sum,
                 out,
-                |x, sum| {
+                |pixel, sum| {
                     // Both from the same integers: where all pixels are equal, this is exactly 0.
-                    let difference = count * i64::from(fixed.integer(pixels[x])) - sum;
-                    pixels[x] + unit.store::<L>(difference)
+                    let difference = count * f64::from(fixed.integer(*pixel)) - number(sum);
+                    *pixel += unit.store_number::<L>(difference);
                 },
             );
         }

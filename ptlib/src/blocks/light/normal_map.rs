@@ -7,7 +7,7 @@
 //! everything wraps around.
 
 use crate::block::prelude::*;
-use box_sum::{FixedPoint, LinePlan, LineSums, SlidingSum, Window};
+use box_sum::{Extent, FixedPoint, LinePlan, LineSums, SlidingSum, Window};
 
 const HEIGHTS: usize = 0;
 
@@ -53,11 +53,12 @@ impl GatherBlock for NormalMap {
         let dimensions = (image.width(), image.height());
         let columns = LinePlan::new(dimensions, 0, [square], fixed);
         let differences = LinePlan::new(dimensions, 0, halves, fixed);
+        let extent = Extent::of_signed(pairs * fixed.one());
         Ok(Self {
             columns: cx.line_sums(&columns, image, 1)?,
             differences: cx.line_sums(&differences, image, 1)?,
-            along_x: SlidingSum::new(halves, image.width()),
-            along_y: SlidingSum::new([square], image.width()),
+            along_x: SlidingSum::new(halves, image.width()).reaching(extent),
+            along_y: SlidingSum::new([square], image.width()).reaching(extent),
             to_slope: convert::single(255.0 / (pairs * fixed.one())),
         })
     }

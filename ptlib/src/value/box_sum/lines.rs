@@ -89,11 +89,16 @@ impl<const K: usize> LinePlan<K> {
         Self { width, height, slope, length, windows, fixed }
     }
 
-    /// The work: fill every band, in any order, then read `sums`.
-    pub fn bands<'a>(&self, image: &'a Image, sums: &'a mut LineSums) -> Vec<Band<'a, K>> {
+    /// The work for that many threads: fill every band, in any order, then read `sums`.
+    pub fn bands<'a>(
+        &self,
+        threads: usize,
+        image: &'a Image,
+        sums: &'a mut LineSums,
+    ) -> Vec<Band<'a, K>> {
         let width = self.width as usize;
-        // Enough bands for many threads, but pieces of rows that are worth fetching.
-        let columns = (width / 8).clamp(512, 2048).next_multiple_of(16);
+        // As wide as can be: a CPU fetches ahead along rows, and not from one row to the next.
+        let columns = width.div_ceil(threads.max(1)).clamp(512, 4096).next_multiple_of(16);
         sums.slope = self.slope;
         let mut bands = Vec::new();
         for (channel, plane) in sums.sums.planes_mut().enumerate() {
@@ -272,7 +277,7 @@ pub(super) mod tests {
                     LinePlan::new((width, height), slope, windows, FixedPoint::new::<EightBit>(99));
                 let memory = Image::new(&BufferPool::new(), width, height, 1).unwrap();
                 let mut sums = LineSums::new(memory);
-                for band in plan.bands(&image, &mut sums).iter_mut().rev() {
+                for band in plan.bands(3, &image, &mut sums).iter_mut().rev() {
                     band.fill(SimdLevel::best(), || Ok(())).unwrap();
                 }
                 for y in 0..height {

@@ -17,11 +17,12 @@
 mod levels;
 mod lines;
 mod rows;
+mod scan;
 mod squares;
 
 pub use levels::LevelBox;
 pub use lines::{Band, LinePlan, LineSums};
-pub use rows::{RunningSum, SlidingSum, Tap};
+pub use rows::{Extent, RunningSum, SlidingSum, Tap};
 pub use squares::SquareSums;
 
 use std::ops::Range;
@@ -89,8 +90,13 @@ impl Mean {
     #[inline(always)]
     #[must_use]
     pub fn store<L: Levels>(self, sum: i64) -> f32 {
-        #[expect(clippy::cast_precision_loss, reason = "sums are below 2⁵²")]
-        let sum = sum as f64;
+        self.store_number::<L>(number(sum))
+    }
+
+    /// The same for a sum that is a number already.
+    #[inline(always)]
+    #[must_use]
+    pub fn store_number<L: Levels>(self, sum: f64) -> f32 {
         if L::EIGHT_BIT {
             // Half a summand more: the quotient is then at least 0.5/count away from any integer,
             // far more than its rounding error, and its floor is the nearest integer to what is
@@ -101,6 +107,14 @@ impl Mean {
             convert::single(sum * self.per_unit)
         }
     }
+}
+
+/// A sum as a number. Exact: sums are below 2⁵².
+#[inline(always)]
+#[must_use]
+#[expect(clippy::cast_precision_loss, reason = "sums are below 2⁵²")]
+pub fn number(sum: i64) -> f64 {
+    sum as f64
 }
 
 /// Places relative to the one that a sum is for.
@@ -200,12 +214,12 @@ impl<const K: usize> Iterator for Runs<K> {
 impl RingWindow {
     /// The sum at place 0.
     fn sum<T: Copy>(&self, row: &[T], load: &impl Fn(T) -> i32) -> i64 {
-        let load = |number| i64::from(load(number));
-        let ring = row.iter().chain(row).skip(index(self.start)).take(index(self.rest));
-        let mut sum: i64 = ring.map(|number| load(*number)).sum();
+        let total = |row: &[T]| row.iter().map(|number| i64::from(load(*number))).sum::<i64>();
+        let (start, rest) = (index(self.start), index(self.rest));
+        let to_wrap = rest.min(row.len() - start);
+        let mut sum = total(&row[start..][..to_wrap]) + total(&row[..rest - to_wrap]);
         if self.turns > 0 {
-            let turn: i64 = row.iter().map(|number| load(*number)).sum();
-            sum += self.turns.cast_signed() * turn;
+            sum += self.turns.cast_signed() * total(row);
         }
         if self.is_negative { -sum } else { sum }
     }
