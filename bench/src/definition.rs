@@ -356,7 +356,7 @@ mod tests {
         for entry in fs::read_dir(home().join("../examples/graphs")).unwrap() {
             let name = PathBuf::from(entry.unwrap().file_name());
             let rows = definitions.iter().filter(|row| row.example.as_ref() == Some(&name));
-            let expected = if name.extension() == Some("xml".as_ref()) { 6 } else { 0 };
+            let expected = if name.extension() == Some("xml".as_ref()) { 7 } else { 0 };
             assert_eq!(rows.count(), expected, "{}", name.display());
         }
     }

@@ -6,7 +6,7 @@
 use std::{
     ffi::{CString, c_char, c_void},
     ptr,
-    sync::{Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
 use ptlib_plugin_abi::{services::*, values::*, *};
@@ -20,7 +20,7 @@ use crate::{
     error::{Error, ErrorKind},
     limits::Limits,
     math::convert::count,
-    value::{Draft, Kind, Stream, StreamPlan, Value, Words, WordsPlan},
+    value::{BufferPool, Draft, Kind, Stream, StreamPlan, Value, Words, WordsPlan},
 };
 
 /// What a call of `compute` makes besides images.
@@ -29,6 +29,8 @@ pub(super) struct Making<'a> {
     kinds: &'a [Kind],
     /// What parts may be shared from.
     inputs: &'a [Option<Value>],
+    /// Where the memory of new values comes from.
+    pool: &'a Arc<BufferPool>,
     outputs: Mutex<Vec<Output>>,
 }
 
@@ -37,7 +39,7 @@ pub(super) struct Making<'a> {
 enum Output {
     #[default]
     Nothing,
-    Begun(Begun),
+    Begun(Box<Begun>),
     Made(Value),
 }
 
@@ -67,9 +69,13 @@ fn wrong(message: impl Into<String>) -> Error {
 }
 
 impl<'a> Making<'a> {
-    pub(super) fn new(kinds: &'a [Kind], inputs: &'a [Option<Value>]) -> Self {
+    pub(super) fn new(
+        kinds: &'a [Kind],
+        inputs: &'a [Option<Value>],
+        pool: &'a Arc<BufferPool>,
+    ) -> Self {
         let outputs = kinds.iter().map(|_| Output::Nothing).collect();
-        Self { kinds, inputs, outputs: Mutex::new(outputs) }
+        Self { kinds, inputs, pool, outputs: Mutex::new(outputs) }
     }
 
     /// What was made for an output.
@@ -117,15 +123,16 @@ impl<'a> Making<'a> {
         let numbers = draft.numbers_mut().map_or(ptr::null(), |numbers| numbers.as_ptr());
         let pointers = lists.each_ref().map(|list| list.pointers.as_ptr());
         let kind = draft.kind();
-        self.put(output, Output::Begun(Begun { draft, lists }), kind)?;
+        self.put(output, Output::Begun(Box::new(Begun { draft, lists })), kind)?;
         Ok((numbers, pointers))
     }
 
     fn finish(&self, output: u32, limits: &Limits) -> Result<(), Error> {
         let begun = lock(&self.outputs).get_mut(output as usize).map(std::mem::take);
-        let Some(Output::Begun(Begun { draft, lists })) = begun else {
+        let Some(Output::Begun(begun)) = begun else {
             return Err(wrong(format!("nothing was begun for output {output}")));
         };
+        let Begun { draft, lists } = *begun;
         drop(lists);
         let kind = draft.kind();
         let value = draft.finish(limits).map_err(|error| {
@@ -291,7 +298,8 @@ unsafe extern "C" fn mesh_begin(
             let limits = call.means.limits;
             let plans = making.plans(data.streams, data.stream_count, limits)?;
             let indices = making.numbers(data.indices, data.index_count, "mesh.indices")?;
-            let draft = Draft::mesh(data.vertex_count, indices, plans.clone(), limits)?;
+            let draft =
+                Draft::mesh(data.vertex_count, indices, plans.clone(), (limits, making.pool))?;
             let (numbers, [streams, _]) = making.begin(output, draft, [plans, vec![]])?;
             if data.indices.is_null() {
                 data.indices = numbers;
@@ -315,7 +323,7 @@ unsafe extern "C" fn points_begin(
             zero(data.flags, "points.flags")?;
             let limits = call.means.limits;
             let plans = making.plans(data.streams, data.stream_count, limits)?;
-            let draft = Draft::points(data.point_count, plans.clone(), limits)?;
+            let draft = Draft::points(data.point_count, plans.clone(), (limits, making.pool))?;
             let (_, [streams, _]) = making.begin(output, draft, [plans, vec![]])?;
             data.streams = streams;
             points.write(data);
@@ -345,7 +353,8 @@ unsafe extern "C" fn strands_begin(
                 making.plans(of_strands, data.strand_stream_count, limits)?,
             ];
             let [points, strand] = plans.clone();
-            let draft = Draft::strands(data.point_count, first_point, points, strand, limits)?;
+            let memory = (limits, making.pool);
+            let draft = Draft::strands(data.point_count, first_point, points, strand, memory)?;
             let (numbers, [of_points, of_strands]) = making.begin(output, draft, plans)?;
             if data.first_point.is_null() {
                 data.first_point = numbers;

@@ -6,8 +6,8 @@
 use std::sync::Arc;
 
 use super::{
-    Kind, Mesh, Points, StrandParts, Strands, Stream, StreamShape, Value, Words, WordsMut,
-    words::check_bytes,
+    BufferPool, Kind, Mesh, Points, StrandParts, Strands, Stream, StreamShape, Value, Words,
+    WordsMut, words::check_bytes,
 };
 use crate::{
     error::{Error, ErrorKind},
@@ -30,6 +30,34 @@ pub enum WordsPlan {
     New(u32),
     /// Those of another value, shared.
     Shared(Words),
+}
+
+/// How much memory a draft may take, and where it comes from.
+#[derive(Debug, Clone, Copy)]
+pub struct MemorySource<'a> {
+    limits: &'a Limits,
+    pool: Option<&'a Arc<BufferPool>>,
+}
+
+impl<'a> From<&'a Limits> for MemorySource<'a> {
+    fn from(limits: &'a Limits) -> Self {
+        Self { limits, pool: None }
+    }
+}
+
+impl<'a> From<(&'a Limits, &'a Arc<BufferPool>)> for MemorySource<'a> {
+    fn from((limits, pool): (&'a Limits, &'a Arc<BufferPool>)) -> Self {
+        Self { limits, pool: Some(pool) }
+    }
+}
+
+impl MemorySource<'_> {
+    fn words(self, len: usize) -> Result<WordsMut, Error> {
+        match self.pool {
+            Some(pool) => WordsMut::of_pool(len, pool),
+            None => WordsMut::zeroed(len),
+        }
+    }
 }
 
 /// A mesh, points or strands while somebody writes them.
@@ -56,49 +84,56 @@ impl Draft {
     /// # Errors
     /// [`ErrorKind::Limit`] before anything is allocated, [`ErrorKind::InvalidArgument`],
     /// [`ErrorKind::NoMemory`].
-    pub fn mesh(
+    pub fn mesh<'a>(
         vertex_count: u32,
         indices: WordsPlan,
         streams: Vec<StreamPlan>,
-        limits: &Limits,
+        means: impl Into<MemorySource<'a>>,
     ) -> Result<Self, Error> {
-        Mesh::check_counts(vertex_count, indices.len(), streams.len(), limits)?;
+        let means = means.into();
+        Mesh::check_counts(vertex_count, indices.len(), streams.len(), means.limits)?;
         let lists = [(vertex_count, streams), (0, vec![])];
-        Self::allocate(Kind::Mesh, indices, lists, limits)
+        Self::allocate(Kind::Mesh, indices, lists, means)
     }
 
     /// So many points.
     ///
     /// # Errors
     /// As [`mesh`](Self::mesh).
-    pub fn points(count: u32, streams: Vec<StreamPlan>, limits: &Limits) -> Result<Self, Error> {
-        Points::check_counts(count, streams.len(), limits)?;
-        Self::allocate(Kind::Points, WordsPlan::New(0), [(count, streams), (0, vec![])], limits)
+    pub fn points<'a>(
+        count: u32,
+        streams: Vec<StreamPlan>,
+        means: impl Into<MemorySource<'a>>,
+    ) -> Result<Self, Error> {
+        let means = means.into();
+        Points::check_counts(count, streams.len(), means.limits)?;
+        Self::allocate(Kind::Points, WordsPlan::New(0), [(count, streams), (0, vec![])], means)
     }
 
     /// Strands of so many points together; `first_point` has one entry more than strands.
     ///
     /// # Errors
     /// As [`mesh`](Self::mesh).
-    pub fn strands(
+    pub fn strands<'a>(
         point_count: u32,
         first_point: WordsPlan,
         point_streams: Vec<StreamPlan>,
         strand_streams: Vec<StreamPlan>,
-        limits: &Limits,
+        means: impl Into<MemorySource<'a>>,
     ) -> Result<Self, Error> {
+        let means = means.into();
         let streams = point_streams.len() + strand_streams.len();
         let strand_count = u32::try_from(first_point.len().saturating_sub(1)).unwrap_or(u32::MAX);
-        Strands::check_counts(strand_count, point_count, streams, limits)?;
+        Strands::check_counts(strand_count, point_count, streams, means.limits)?;
         let lists = [(point_count, point_streams), (strand_count, strand_streams)];
-        Self::allocate(Kind::Strands, first_point, lists, limits)
+        Self::allocate(Kind::Strands, first_point, lists, means)
     }
 
     fn allocate(
         kind: Kind,
         numbers: WordsPlan,
         lists: [(u32, Vec<StreamPlan>); 2],
-        limits: &Limits,
+        means: MemorySource<'_>,
     ) -> Result<Self, Error> {
         let mut words = match &numbers {
             WordsPlan::New(count) => u64::from(*count),
@@ -112,13 +147,13 @@ impl Draft {
                 }
             }
         }
-        check_bytes(words.saturating_mul(size_of::<u32>() as u64), limits)?;
+        check_bytes(words.saturating_mul(size_of::<u32>() as u64), means.limits)?;
         let numbers = match numbers {
-            WordsPlan::New(count) => Part::New(WordsMut::zeroed(count as usize)?, None),
+            WordsPlan::New(count) => Part::New(means.words(count as usize)?, None),
             WordsPlan::Shared(words) => Part::Shared(words),
         };
         let count = lists[0].0;
-        let [streams, strand_streams] = lists.map(|(count, streams)| parts(count, streams));
+        let [streams, strand_streams] = lists.map(|(count, streams)| parts(count, streams, means));
         Ok(Self { kind, count, numbers, streams: streams?, strand_streams: strand_streams? })
     }
 
@@ -193,10 +228,14 @@ impl<T> Part<T> {
     }
 }
 
-fn parts(count: u32, streams: Vec<StreamPlan>) -> Result<Vec<Part<Stream>>, Error> {
+fn parts(
+    count: u32,
+    streams: Vec<StreamPlan>,
+    means: MemorySource<'_>,
+) -> Result<Vec<Part<Stream>>, Error> {
     let part = |stream| match stream {
         StreamPlan::New(shape) => {
-            Ok(Part::New(WordsMut::zeroed(shape.packed_words(count))?, Some(shape)))
+            Ok(Part::New(means.words(shape.packed_words(count))?, Some(shape)))
         }
         StreamPlan::Shared(stream) => Ok(Part::Shared(stream.beginning(count))),
     };

@@ -39,7 +39,7 @@ pub(crate) mod zeros;
 
 pub use bounds::Bounds;
 pub use content::ContentHash;
-pub use draft::{Draft, StreamPlan, WordsPlan};
+pub use draft::{Draft, MemorySource, StreamPlan, WordsPlan};
 pub use gradient::{Gradient, GradientStop};
 pub use image::{Image, MAX_PLANES};
 pub use kind::{Kind, Value};

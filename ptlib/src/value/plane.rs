@@ -1,4 +1,4 @@
-//! One channel of an image, and the pool that recycles the memory of planes.
+//! One channel of an image, and the pool that recycles the memory of values.
 
 use std::{
     fmt,
@@ -45,7 +45,7 @@ impl fmt::Debug for Plane {
     }
 }
 
-/// Memory of planes that are no longer used, kept for the next ones: fresh memory costs more than
+/// Memory of values that are no longer used, kept for the next ones: fresh memory costs more than
 /// most blocks cost.
 #[derive(Debug, Default)]
 pub struct BufferPool {
@@ -66,18 +66,9 @@ impl BufferPool {
     /// [`ErrorKind::NoMemory`] if the system has no memory for it.
     pub fn plane(self: &Arc<Self>, len: usize) -> Result<Plane, Error> {
         let wanted = Zeros::wanted(len);
-        let recycled = {
-            let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
-            free.iter()
-                .position(|buffer| buffer.numbers().len() == wanted)
-                .map(|i| free.swap_remove(i))
-        };
-        let buffer = match recycled {
+        let buffer = match self.take(wanted, wanted) {
             Some(buffer) => buffer,
-            None => Zeros::new(wanted).ok_or_else(|| {
-                let bytes = wanted as u64 * size_of::<f32>() as u64;
-                Error::new(ErrorKind::NoMemory, format!("the system has no {bytes} bytes left"))
-            })?,
+            None => fresh(wanted)?,
         };
         let start = buffer.aligned_start();
         let mut plane = Plane { buffer, start, len, pool: Arc::downgrade(self) };
@@ -85,6 +76,26 @@ impl BufferPool {
             plane.data_mut().fill(f32::NAN);
         }
         Ok(plane)
+    }
+
+    /// Memory for `len` numbers that are 0, from an aligned start on. There may be a quarter more.
+    pub(super) fn zeros(&self, len: usize) -> Result<Zeros, Error> {
+        let wanted = Zeros::wanted(len);
+        let Some(mut buffer) = self.take(wanted, wanted.saturating_add(wanted / 4)) else {
+            return fresh(wanted);
+        };
+        let start = buffer.aligned_start();
+        buffer.numbers_mut()[start..start + len].fill(0.0);
+        Ok(buffer)
+    }
+
+    /// The smallest memory that is free, of so many numbers at least and at most.
+    fn take(&self, least: usize, most: usize) -> Option<Zeros> {
+        let mut free = self.free.lock().unwrap_or_else(PoisonError::into_inner);
+        let sizes = free.iter().map(|buffer| buffer.numbers().len()).enumerate();
+        let fitting = sizes.filter(|(_, size)| (least..=most).contains(size));
+        let (smallest, _) = fitting.min_by_key(|(_, size)| *size)?;
+        Some(free.swap_remove(smallest))
     }
 
     /// Frees memory until at most `bytes` are kept.
@@ -97,9 +108,17 @@ impl BufferPool {
         });
     }
 
-    fn give_back(&self, buffer: Zeros) {
+    pub(super) fn give_back(&self, buffer: Zeros) {
         self.free.lock().unwrap_or_else(PoisonError::into_inner).push(buffer);
     }
+}
+
+/// Zeros from the system.
+fn fresh(wanted: usize) -> Result<Zeros, Error> {
+    Zeros::new(wanted).ok_or_else(|| {
+        let bytes = (wanted as u64).saturating_mul(size_of::<f32>() as u64);
+        Error::new(ErrorKind::NoMemory, format!("the system has no {bytes} bytes left"))
+    })
 }
 
 #[cfg(test)]

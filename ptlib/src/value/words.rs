@@ -1,8 +1,12 @@
 //! Memory of meshes, points and strands: 32-bit words, our own or somebody else's.
 
-use std::{fmt, ops::Deref, sync::Arc};
+use std::{
+    fmt,
+    ops::Deref,
+    sync::{Arc, Weak},
+};
 
-use super::zeros::Zeros;
+use super::{BufferPool, zeros::Zeros};
 use crate::{
     error::{Error, ErrorKind},
     limits::Limits,
@@ -77,7 +81,12 @@ pub struct WordsMut {
     zeros: Zeros,
     start: usize,
     len: usize,
+    /// Where the memory goes afterwards.
+    pool: Weak<BufferPool>,
 }
+
+/// Fewer words are not worth a pool: the heap is as fast.
+const FEW: usize = 1 << 16;
 
 impl WordsMut {
     /// `len` words of 0.
@@ -85,12 +94,17 @@ impl WordsMut {
     /// # Errors
     /// [`ErrorKind::NoMemory`] if the system has no memory for them.
     pub fn zeroed(len: usize) -> Result<Self, Error> {
-        let wanted = Zeros::wanted(len);
-        let zeros = Zeros::new(wanted).ok_or_else(|| {
-            let bytes = (wanted as u64).saturating_mul(size_of::<u32>() as u64);
-            Error::new(ErrorKind::NoMemory, format!("the system has no {bytes} bytes left"))
-        })?;
-        Ok(Self { start: zeros.aligned_start(), zeros, len })
+        Self::of_pool(len, &BufferPool::new())
+    }
+
+    /// The same with the memory of a pool, if they are many.
+    ///
+    /// # Errors
+    /// As [`zeroed`](Self::zeroed).
+    pub fn of_pool(len: usize, pool: &Arc<BufferPool>) -> Result<Self, Error> {
+        let zeros = pool.zeros(len)?;
+        let pool = if len < FEW { Weak::new() } else { Arc::downgrade(pool) };
+        Ok(Self { start: zeros.aligned_start(), zeros, len, pool })
     }
 
     /// The words, to write.
@@ -107,6 +121,14 @@ impl WordsMut {
     #[must_use]
     pub fn freeze(self) -> Words {
         Words(Arc::new(self))
+    }
+}
+
+impl Drop for WordsMut {
+    fn drop(&mut self) {
+        if let Some(pool) = self.pool.upgrade() {
+            pool.give_back(std::mem::take(&mut self.zeros));
+        }
     }
 }
 
@@ -159,6 +181,21 @@ mod tests {
         let mut many = WordsMut::zeroed(5 << 20).unwrap();
         assert!(many.words_mut().iter().all(|word| *word == 0));
         assert_eq!(many.words_mut().as_ptr() as usize % ALIGNMENT, 0);
+    }
+
+    #[test]
+    fn memory_of_a_pool_is_used_again_and_zero_again() {
+        let pool = BufferPool::new();
+        let mut words = WordsMut::of_pool(5 * FEW / 4, &pool).unwrap();
+        words.words_mut().fill(7);
+        let address = words.words_mut().as_ptr();
+        drop(words.freeze());
+        let mut fewer = WordsMut::of_pool(FEW + 100, &pool).unwrap();
+        assert_eq!(fewer.words_mut().as_ptr(), address);
+        assert!(fewer.words_mut().iter().all(|word| *word == 0));
+        drop(fewer);
+        assert_ne!(WordsMut::of_pool(2 * FEW, &pool).unwrap().words_mut().as_ptr(), address);
+        drop(pool);
     }
 
     #[test]

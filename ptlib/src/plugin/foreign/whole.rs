@@ -32,7 +32,7 @@ impl WholeFactory for Factory {
         let setup = Setup::new(values, precision, cx)?;
         let instance = self.0.prepared(&setup, Means::of(cx))?;
         let kinds = &self.0.outputs;
-        let making = Making::new(kinds, cx.inputs);
+        let making = Making::new(kinds, cx.inputs, cx.pool);
         let images = cx.planes.outputs.iter().map(|planes| match planes {
             0 => Ok(None),
             planes => image(cx, *planes).map(Some),
