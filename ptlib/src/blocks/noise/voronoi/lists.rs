@@ -32,9 +32,6 @@ pub(super) struct Span {
 /// The image is cut into this many parts in each direction, and up to the square of it in all.
 const PARTS_ACROSS: usize = 4;
 
-/// The most parts.
-pub(super) const PARTS: u64 = (PARTS_ACROSS * PARTS_ACROSS) as u64;
-
 /// A part of the image, and the lists of its tiles. Parts are made on all threads.
 #[derive(Debug)]
 pub(super) struct Part {

@@ -24,6 +24,10 @@ use crate::block::prelude::*;
 /// Width and height of the smallest tile in pixels: one 256-bit register.
 const SIDE: usize = 8;
 
+/// As many threads make parts at once as memory is counted for. There may be more, but points
+/// seldom crowd so that it matters.
+const THREADS: u64 = 8;
+
 /// A point in pixels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
@@ -151,10 +155,11 @@ impl Cells {
     pub(super) fn bytes_of(points: u64, width: u32, height: u32) -> u64 {
         let tiles = [width, height].map(|size| u64::from(size).div_ceil(SIDE as u64));
         let tiles = tiles[0] * tiles[1];
-        // While they are built, there are on each thread the lists of four squares of each size.
+        // While they are made, each thread has the points near a square, and those of its quarters:
+        // all of them five times, if they crowd.
         let lists = Self::most_groups(points, tiles)
             * (size_of::<Group>() + 2 * size_of::<[f32; GROUP]>()) as u64;
-        let building = lists::PARTS * 16 * points * size_of::<u32>() as u64;
+        let building = THREADS * 5 * points * size_of::<(u32, [f32; 2])>() as u64;
         points * size_of::<Point>() as u64 + lists + building + 12 * tiles
     }
 
