@@ -62,7 +62,7 @@ pub(crate) fn write(rows: &[Row], peers: &[PeerRow]) -> Result<PathBuf> {
             (row.name.clone(), row.width, row.threads, row.precision.clone())
         });
         record.peers = merged(old.peers, record.peers, |row| {
-            (row.name.clone(), row.width, row.threads, row.does.clone())
+            (row.name.clone(), row.width, row.threads, row.peer.clone(), row.does.clone())
         });
     }
     fs::write(&path, serde_json::to_string_pretty(&record)? + "\n")?;
