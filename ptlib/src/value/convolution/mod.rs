@@ -1,7 +1,7 @@
 //! Convolution: weighted sums of the pixels around each pixel.
 //!
 //! Specification 2.0 (CONV). The matrix is not mirrored, sums are neither scaled nor shifted, and
-//! pixels are read around the edges. A [`Matrix`] is a list of [taps](taps), those of weight 0 left
+//! pixels are read around the edges. A [`Matrix`] is a list of taps, those of weight 0 left
 //! out. Sums are made for some pixels of a row at a time, which stay in registers, and always in
 //! the same order, so that every split of the work gives the same bits.
 //!
@@ -10,7 +10,7 @@
 //! it represents exactly, which are those with weights like 1, -2 or 0.25. They need half the time.
 //!
 //! In float precision, a matrix that is a column of weights times a row of weights, as every
-//! Gaussian is, costs only as much as the two: see [`separable`].
+//! Gaussian is, costs only as much as the two: see `separable`.
 //!
 //! Matrices whose weights follow a rule (squares, slopes) slide instead: see
 //! [`box_sum`](super::box_sum).
