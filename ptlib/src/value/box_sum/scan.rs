@@ -42,12 +42,13 @@ impl Scan {
         let last_step = numbers[LANES + count];
         numbers[LANES] = *sum;
         // What is left of earlier numbers behind these does no harm: sums look back.
-        add_neighbours::<1>(numbers, others);
-        add_neighbours::<2>(others, numbers);
-        add_neighbours::<4>(numbers, others);
-        add_neighbours::<8>(others, numbers);
+        let end = LANES + count.next_multiple_of(LANES);
+        add_neighbours::<1>(numbers, others, end);
+        add_neighbours::<2>(others, numbers, end);
+        add_neighbours::<4>(numbers, others, end);
+        add_neighbours::<8>(others, numbers, end);
         let mut running = [0_u32; LANES];
-        for numbers in numbers[LANES..].as_chunks_mut::<LANES>().0 {
+        for numbers in numbers[LANES..end].as_chunks_mut::<LANES>().0 {
             for (running, number) in running.iter_mut().zip(numbers) {
                 *running = running.wrapping_add(*number);
                 *number = *running;
@@ -59,11 +60,13 @@ impl Scan {
     }
 }
 
-/// To each number, adds the one that many places back.
+/// To each number up to `end`, adds the one that many places back. (Were their number known to the
+/// compiler, it would write all of them one after the other, in each loop that uses this.)
 #[inline(always)]
-fn add_neighbours<const BACK: usize>(numbers: &Numbers, sums: &mut Numbers) {
-    for i in LANES..LANES + MOST {
-        sums[i] = numbers[i].wrapping_add(numbers[i - BACK]);
+fn add_neighbours<const BACK: usize>(numbers: &Numbers, sums: &mut Numbers, end: usize) {
+    let pairs = numbers[LANES..end].iter().zip(&numbers[LANES - BACK..end - BACK]);
+    for (sum, (number, back)) in sums[LANES..end].iter_mut().zip(pairs) {
+        *sum = number.wrapping_add(*back);
     }
 }
 
